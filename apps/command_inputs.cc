@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/command_inputs.h"
 
+#include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/live/live_source.h"
 
 #include <filesystem>
@@ -22,6 +23,17 @@ std::vector<RunInput> CommandInputs(const CommandLine& line, const Dataset& data
   }
   if (dataset.info().ground_truth) add(dataset.info().ground_truth->path);
   return inputs;
+}
+
+Rotation ReadRotation(const CommandLine& line) {
+  const auto text = line.Value("--rotate");
+  return text ? ParseChoice<Rotation>("--rotate", *text) : Rotation::kAuto;
+}
+
+std::optional<int> ReadMaxWidth(const CommandLine& line) {
+  constexpr int kNarrowest = 16;  // pixels; nothing is left to see by then
+  if (!line.Has("--max-width")) return std::nullopt;
+  return line.Count("--max-width", 0, {kNarrowest, kLongestSide});
 }
 
 }  // namespace plumbline

@@ -6,6 +6,7 @@
 #include "plumbline/report/run_folder.h"
 
 #include "apps/command_line.h"
+#include <optional>
 #include <vector>
 
 namespace plumbline {
@@ -14,5 +15,16 @@ namespace plumbline {
 // --camera, --poses and --config, as far as they are given, and the ground truth. A live source,
 // what comes from a pipe, and a camera that is built in have no place.
 std::vector<RunInput> CommandInputs(const CommandLine& line, const Dataset& dataset);
+
+// What --rotate and --max-width do to images before they are used, with the same words in every
+// command that reads images.
+inline constexpr const char* kRotateHelp =
+    "turn images clockwise; auto (default): as a video or the EXIF data of stills ask";
+inline constexpr const char* kMaxWidthHelp =
+    "reduce wider images to this width (default: to 2 megapixels)";
+
+// Reads --rotate and --max-width. InputError for other values than these.
+Rotation ReadRotation(const CommandLine& line);
+std::optional<int> ReadMaxWidth(const CommandLine& line);
 
 }  // namespace plumbline

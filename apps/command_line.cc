@@ -35,6 +35,8 @@ bool MayBeRepeated(const CommandOption& option) {
   return option.help.find("may be repeated") != std::string::npos;
 }
 
+bool IsAnyNumber(const std::string& positional) { return positional.ends_with(" ...]"); }
+
 bool MayBeLeftOut(const std::string& positional) { return positional.starts_with('['); }
 
 }  // namespace
@@ -74,14 +76,15 @@ CommandLine::CommandLine(const CommandSyntax& syntax, std::span<const std::strin
   const auto wanted = syntax.positionals.size();
   const auto optional = static_cast<std::size_t>(
       std::count_if(syntax.positionals.begin(), syntax.positionals.end(), MayBeLeftOut));
-  if (positionals_.size() > wanted) {
+  const bool any_number = wanted > 0 && IsAnyNumber(syntax.positionals.back());
+  if (positionals_.size() > wanted && !any_number) {
     throw InputError(syntax.name + ": unexpected argument " + Printable(positionals_[wanted]));
   }
   if (positionals_.size() + optional < wanted) {
     throw InputError(syntax.name + ": expected " + syntax.positionals[positionals_.size()] +
                      "; see plumbline " + syntax.name + " --help");
   }
-  positionals_.resize(wanted);
+  positionals_.resize(std::max(wanted, positionals_.size()));
 }
 
 void CommandLine::AddValue(const CommandOption& option, std::string value) {
@@ -119,6 +122,15 @@ int CommandLine::Count(std::string_view option, int fallback, CountRange range) 
 const std::string& CommandLine::Positional(std::size_t index) const {
   PLUMBLINE_CHECK(index < positionals_.size(), "positional argument of the syntax");
   return positionals_[index];
+}
+
+std::vector<std::string> CommandLine::PositionalsFrom(std::size_t index) const {
+  std::vector<std::string> from;
+  for (std::size_t i = index; i < positionals_.size(); ++i) {
+    if (!positionals_[i].empty())
+      from.push_back(positionals_[i]);  // one that was left out is empty
+  }
+  return from;
 }
 
 int ParseCount(std::string_view option, std::string_view text, CountRange range) {

@@ -26,7 +26,8 @@ struct CommandSyntax {
   std::string name;                      // "evaluate"
   std::string summary;                   // one sentence
   std::vector<std::string> positionals;  // "REFERENCE", "ESTIMATE": all needed, in this order;
-                                         // one in brackets, "[PATH]", may be left out
+                                         // one in brackets, "[PATH]", may be left out, and the
+                                         // last may be "[PATH ...]": any number of them
   std::vector<CommandOption> options;    // --help is understood always
 };
 
@@ -60,6 +61,8 @@ class CommandLine {
   int Count(std::string_view option, int fallback, CountRange range) const;
   // Empty when a positional argument that may be left out is.
   const std::string& Positional(std::size_t index) const;
+  // The positional arguments from one on, as many as there are.
+  std::vector<std::string> PositionalsFrom(std::size_t index) const;
 
  private:
   void AddValue(const CommandOption& option, std::string value);

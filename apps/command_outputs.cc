@@ -4,13 +4,38 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
+#include "plumbline/io/map_io.h"
+#include "plumbline/io/path_overlap.h"
 #include "plumbline/report/run_folder.h"
 
+#include <cstddef>
+#include <fstream>
+#include <regex>
+#include <string>
 #include <system_error>
 
 #include <fmt/core.h>
 
 namespace plumbline {
+namespace {
+
+// Whether the first row of a file is as FormatTum writes it: a time and seven numbers, each with
+// nine decimals.
+bool BeginsAsOurTrajectory(const std::filesystem::path& path) {
+  constexpr std::size_t kLongestRow = 400;
+  static const std::regex row(R"(-?[0-9]+\.[0-9]{9}( -?[0-9]+\.[0-9]{9}){7})");
+  std::ifstream file(path, std::ios::binary);
+  std::string start(kLongestRow, '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  return std::regex_match(start.substr(0, start.find('\n')), row);
+}
+
+}  // namespace
+
+FileKind MapFileKind() { return {"a map", kMapMagic}; }
+
+FileKind TrajectoryFileKind() { return {"a trajectory by plumbline", "", &BeginsAsOurTrajectory}; }
 
 void CheckReplacesItsKind(std::string_view option,
                           const std::filesystem::path& file,
@@ -25,6 +50,19 @@ void CheckReplacesItsKind(std::string_view option,
                                kind.name));
 }
 
+void CheckApartFromEachOther(
+    std::span<const std::pair<std::string_view, std::filesystem::path>> outputs) {
+  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+    for (auto before = outputs.begin(); before != output; ++before) {
+      if (!IsSamePath(output->second, before->second)) continue;
+      throw InputError(fmt::format("{} {}: expected another file than that of {}",
+                                   output->first,
+                                   output->second.string(),
+                                   before->first));
+    }
+  }
+}
+
 void CheckKeepsResults(std::string_view option, const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
@@ -33,6 +71,22 @@ void CheckKeepsResults(std::string_view option, const std::filesystem::path& fil
                       ReadRunManifest(folder).has_value();
   if (!of_run) return;
   CheckNoResult(option, file, folder);
+}
+
+void CheckOutput(std::string_view option,
+                 const std::filesystem::path& output,
+                 std::span<const std::filesystem::path> inputs,
+                 const FileKind& kind) {
+  std::error_code error;
+  for (const std::filesystem::path& input : inputs) {
+    if (!std::filesystem::equivalent(output, input, error)) continue;
+    throw InputError(fmt::format("{} {}: expected another file than {}, which is read",
+                                 option,
+                                 output.string(),
+                                 input.string()));
+  }
+  CheckKeepsResults(option, output);
+  CheckReplacesItsKind(option, output, kind);
 }
 
 }  // namespace plumbline

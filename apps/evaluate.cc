@@ -4,23 +4,19 @@
 #include "plumbline/base/printable.h"
 #include "plumbline/eval/line_map_figure.h"
 #include "plumbline/eval/trajectory_figure.h"
-#include "plumbline/io/atomic_file.h"
 #include "plumbline/io/dataset.h"
-#include "plumbline/io/path_overlap.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/report/error_options.h"
-#include "plumbline/report/run_folder.h"
-#include "plumbline/report/run_manifest.h"
 
 #include "apps/command_line.h"
-#include "apps/command_outputs.h"
 #include "apps/commands.h"
+#include "apps/evaluate_outputs.h"
 #include "apps/evaluate_report.h"
 #include "apps/figure_file.h"
 #include "apps/line_map_input.h"
 #include "apps/reference_trajectory.h"
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -37,22 +33,35 @@ namespace {
 CommandSyntax EvaluateSyntax() {
   return {
       "evaluate",
-      "Compares an estimated trajectory, or the folder of a run, with ground truth: a trajectory "
-      "in "
+      "Compares estimated trajectories, or the folders of runs, with ground truth: a trajectory in "
       "TUM\nform, EuRoC csv or KITTI poses, or the folder of a data set that has it. Where that "
       "folder has\nlines.csv and the run lines.obj, the maps of lines are compared, too.",
-      {"REFERENCE", "ESTIMATE"},
+      {"REFERENCE", "ESTIMATE", "[ESTIMATE ...]"},
       {{"--align",
         "none|se3|sim3",
         "what is aligned before positions are compared (se3; sim3 for the run of a single camera)"},
+       {"--align-by",
+        "OTHER",
+        "the alignment is that of OTHER, in the same world as ESTIMATE: a run that made the map in "
+        "which ESTIMATE was localized"},
+       {"--align-reference", "FILE", "ground truth of OTHER, where it is not in REFERENCE"},
+       {"--time-offset",
+        "SECONDS",
+        "added to the stamps of the estimates: 0.1 where their clock is 0.1 s behind that of "
+        "REFERENCE"},
        {"--delta", "3s|1f", "window of RPE and ROE, seconds or frames (3s)"},
        {"--associate", "interpolate|nearest", "how poses of the reference are found (interpolate)"},
        {"--reference-frame",
         "camera|body",
         "what the reference is about (body for EuRoC, else camera)"},
        {"--mirror-y", "", "mirror the reference in y (original ICL-NUIM ground truth)"},
-       {"--json", "FILE", "write the figures as JSON"},
-       {"--plot", "FILE", "draw path and errors, .svg or .png"},
+       {"--json", "FILE|-", "write the figures as JSON; -: to standard output, and nothing else"},
+       {"--plot",
+        "FILE",
+        "draw path, errors, and x, y, z, roll, pitch, yaw over time, .svg or .png"},
+       {"--save-aligned",
+        "FILE|DIR",
+        "write the estimates, aligned, in TUM form: one into FILE, several into DIR"},
        {"--true-lines", "FILE", "lines of the true world (lines.csv of REFERENCE)"},
        {"--lines", "FILE", "estimated lines, .obj or .plb (lines.obj of ESTIMATE)"},
        {"--surfaces", "FILE", "surfaces of the true world (surfaces.csv of REFERENCE)"},
@@ -96,6 +105,15 @@ DatasetFormat DatasetOf(TrajectoryFormat format) {
   return DatasetFormat::kTum;
 }
 
+// Seconds with a sign, to the nanosecond.
+std::int64_t ParseOffset(const std::string& text) {
+  const bool negative = text.starts_with('-');
+  const bool sign = negative || text.starts_with('+');
+  const auto seconds = ParseSeconds(std::string_view(text).substr(sign ? 1 : 0));
+  if (seconds) return negative ? -*seconds : *seconds;
+  throw InputError("--time-offset: expected seconds such as -0.05, found " + Printable(text));
+}
+
 TrajectoryErrorOptions ErrorOptions(const CommandLine& line,
                                     TrajectoryFormat format,
                                     const std::filesystem::path& estimate) {
@@ -111,13 +129,16 @@ TrajectoryErrorOptions ErrorOptions(const CommandLine& line,
   return options;
 }
 
-[[noreturn]] void FailNoOverlap(const Trajectory& reference, const Trajectory& estimate) {
+[[noreturn]] void FailNoOverlap(const std::filesystem::path& file,
+                                const Trajectory& reference,
+                                const Trajectory& estimate) {
   const auto span = [](const Trajectory& trajectory) {
     return FormatStamp(trajectory.front().stamp_ns) + " to " +
            FormatStamp(trajectory.back().stamp_ns);
   };
   throw InputError(
-      "no pose of the estimate has a reference pose at its time: the reference covers " +
+      file.string() +
+      ": no pose of the estimate has a reference pose at its time: the reference covers " +
       span(reference) + ", the estimate " + span(estimate));
 }
 
@@ -142,27 +163,30 @@ std::optional<std::size_t> FramesDelivered(const std::filesystem::path& estimate
   return frames && *frames >= estimate.size() ? frames : std::nullopt;
 }
 
-LineMapFiles FilesOfLines(const CommandLine& line) {
+LineMapFiles FilesOfLines(const CommandLine& line, const std::string& estimate) {
   LineMapFiles files;
   files.reference = line.Positional(0);
-  files.estimate = line.Positional(1);
+  files.estimate = estimate;
   if (const auto path = line.Value("--true-lines")) files.true_lines = *path;
   if (const auto path = line.Value("--lines")) files.lines = *path;
   if (const auto path = line.Value("--surfaces")) files.surfaces = *path;
   return files;
 }
 
-// Compares the lines, where there are some, in the world of the reference; draws them.
-void EvaluateLines(const CommandLine& line, Evaluation& evaluation) {
-  std::optional<LineMapInput> input = LoadLineMaps(FilesOfLines(line));
-  const auto plot = line.Value("--plot-lines");
+// Compares the lines, where there are some, in the world of the reference. Returns them drawn where
+// that is asked for.
+std::optional<Figure> EvaluateLines(const CommandLine& line, Evaluation& evaluation) {
+  const LineMapFiles files = FilesOfLines(line, evaluation.estimate);
+  std::optional<LineMapInput> input = LoadLineMaps(files);
+  const bool plot = line.Has("--plot-lines");
   if (const auto text = line.Value("--align-lines")) {
     evaluation.line_alignment = ParseChoice<LineAlignment>("--align-lines", *text);
-  } else if (evaluation.options.alignment == TrajectoryAlignment::kNone) {
-    evaluation.line_alignment = LineAlignment::kTrajectory;  // nothing is to be moved
+  } else if (evaluation.options.alignment == TrajectoryAlignment::kNone ||
+             evaluation.options.known_alignment) {
+    evaluation.line_alignment = LineAlignment::kTrajectory;  // nothing more is to be moved
   }
   if (!input) {
-    if (!plot) return;
+    if (!plot) return std::nullopt;
     throw InputError(
         "--plot-lines: expected lines.csv in REFERENCE and lines.obj in ESTIMATE, or "
         "--true-lines and --lines");
@@ -172,80 +196,25 @@ void EvaluateLines(const CommandLine& line, Evaluation& evaluation) {
   if (evaluation.line_alignment == LineAlignment::kPoses) {
     reference_from_estimate = AlignPoses(evaluation.error.poses) * reference_from_estimate;
   }
-  evaluation.line_options.viewers = LoadLineViewers(FilesOfLines(line), evaluation.error.poses);
+  evaluation.line_options.viewers = LoadLineViewers(files, evaluation.error.poses);
   input->estimate = Transformed(reference_from_estimate, std::move(input->estimate));
   evaluation.lines =
       CompareLineMaps(input->truth, input->estimate, input->surfaces, evaluation.line_options);
-  if (plot) {
-    WriteFigure(
-        *plot,
-        LineMapFigure(input->truth, input->estimate, *evaluation.lines, evaluation.error.poses));
-  }
-}
-
-// The folder of the run that an estimate is of; nullopt: it is of none.
-std::optional<std::filesystem::path> FolderOfRun(const std::filesystem::path& estimate) {
-  std::error_code error;
-  if (std::filesystem::is_directory(estimate, error)) return estimate;
-  const std::filesystem::path folder = std::filesystem::absolute(estimate, error).parent_path();
-  if (!std::filesystem::exists(folder / RunManifest::kFile, error)) return std::nullopt;
-  return folder;
-}
-
-// Each output has a place of its own.
-void CheckApartFromEachOther(const CommandLine& line, std::span<const char* const> options) {
-  for (auto option = options.begin(); option != options.end(); ++option) {
-    const auto path = line.Value(*option);
-    for (auto before = options.begin(); path && before != option; ++before) {
-      const auto other = line.Value(*before);
-      if (!other || !IsSamePath(*path, *other)) continue;
-      throw InputError(std::string(*option) + " " + *path +
-                       ": expected another file than that of " + *before);
-    }
-  }
-}
-
-// What an output may take the place of.
-FileKind KindOfOutput(std::string_view option, const std::filesystem::path& file) {
-  if (option == "--json") return {"JSON of evaluate", "{\n  \"alignment\": "};
-  if (file.extension() == ".png") return {"a PNG file", "\x89PNG\r\n\x1a\n"};
-  return {"a drawing by plumbline", "<svg "};
-}
-
-// Figures and pictures must not take the place of what they are about, nor of a data set's files or
-// of those of the run, nor of files of another kind.
-void CheckOutputs(const CommandLine& line, const std::vector<std::filesystem::path>& read) {
-  constexpr std::array kOptions = {"--json", "--plot", "--plot-lines"};
-  std::error_code error;
-  const auto run = FolderOfRun(line.Positional(1));
-  const std::filesystem::path reference = line.Positional(0);
-  const bool of_data_set = std::filesystem::is_directory(reference, error);
-  for (const char* option : kOptions) {
-    const auto path = line.Value(option);
-    if (!path) continue;
-    if (std::string_view(option) != "--json") CheckFigureName(*path);
-    if (of_data_set && std::filesystem::exists(*path, error) && IsWithin(*path, reference)) {
-      throw InputError(std::string(option) + " " + *path + ": expected a file outside of " +
-                       reference.string() + ", or a new one");
-    }
-    for (const std::filesystem::path& input : read) {
-      if (!std::filesystem::equivalent(*path, input, error)) continue;
-      throw InputError(std::string(option) + " " + *path +
-                       ": expected a file to write, found one that is compared");
-    }
-    if (run) CheckNoResult(option, *path, *run);
-    CheckReplacesItsKind(option, *path, KindOfOutput(option, *path));
-  }
-  CheckApartFromEachOther(line, kOptions);
+  if (!plot) return std::nullopt;
+  return LineMapFigure(input->truth, input->estimate, *evaluation.lines, evaluation.error.poses);
 }
 
 // What the command reads, as far as it is there.
 std::vector<std::filesystem::path> FilesRead(const CommandLine& line,
                                              const ReferenceTrajectory& reference,
-                                             const std::filesystem::path& estimate) {
-  std::vector<std::filesystem::path> files = {reference.path, estimate};
-  for (const std::filesystem::path& folder :
-       {std::filesystem::path(line.Positional(0)), estimate.parent_path()}) {
+                                             const std::vector<std::filesystem::path>& estimates) {
+  std::vector<std::filesystem::path> files = {reference.path};
+  std::vector<std::filesystem::path> folders = {line.Positional(0)};
+  for (const std::filesystem::path& estimate : estimates) {
+    files.push_back(estimate);
+    folders.push_back(estimate.parent_path());
+  }
+  for (const std::filesystem::path& folder : folders) {
     for (const char* name : {"lines.csv",
                              "surfaces.csv",
                              "lines.obj",
@@ -263,6 +232,119 @@ std::vector<std::filesystem::path> FilesRead(const CommandLine& line,
   return files;
 }
 
+ReferenceTrajectory LoadReferenceFor(const CommandLine& line, const std::string& path) {
+  std::optional<ReferenceFrame> frame;
+  if (const auto text = line.Value("--reference-frame")) {
+    frame = ParseChoice<ReferenceFrame>("--reference-frame", *text);
+  }
+  ReferenceTrajectory reference = LoadReference(path, frame);
+  if (line.Has("--mirror-y")) reference.poses = MirroredY(reference.poses);
+  return reference;
+}
+
+Trajectory ReadEstimate(const CommandLine& line, const std::filesystem::path& file) {
+  Trajectory poses = ReadTrajectory(file).poses;
+  const auto text = line.Value("--time-offset");
+  const std::int64_t offset_ns = text ? ParseOffset(*text) : 0;
+  for (StampedPose& pose : poses) {
+    pose.stamp_ns += offset_ns;
+    if (IsReadableStamp(pose.stamp_ns)) continue;
+    throw InputError("--time-offset " + *text + ": expected stamps before the year 2096, found " +
+                     FormatStamp(pose.stamp_ns) + " in " + file.string());
+  }
+  return poses;
+}
+
+// The trajectory whose alignment is taken, aligned to its own ground truth; nullopt: each estimate
+// has its own.
+std::optional<Evaluation> EvaluateOther(const CommandLine& line,
+                                        const ReferenceTrajectory& reference) {
+  const auto other = line.Value("--align-by");
+  const auto truth = line.Value("--align-reference");
+  if (!other) {
+    if (truth) throw InputError("--align-reference: expected --align-by as well");
+    return std::nullopt;
+  }
+  Evaluation evaluation;
+  evaluation.estimate = *other;
+  evaluation.reference = truth ? LoadReferenceFor(line, *truth) : reference;
+  const std::filesystem::path file = EstimateFile(*other);
+  evaluation.options = ErrorOptions(line, evaluation.reference.format, file);
+  if (evaluation.options.alignment == TrajectoryAlignment::kNone) {
+    throw InputError("--align-by: expected --align se3 or sim3 beside it, found none");
+  }
+  const Trajectory poses = ReadEstimate(line, file);
+  const auto error = CompareTrajectories(evaluation.reference.poses, poses, evaluation.options);
+  if (!error) FailNoOverlap(file, evaluation.reference.poses, poses);
+  evaluation.error = *error;
+  return evaluation;
+}
+
+// What there is of one estimate.
+struct EvaluatedEstimate {
+  Evaluation evaluation;
+  Trajectory poses;  // as compared, not aligned
+  std::optional<Figure> lines;
+};
+
+EvaluatedEstimate EvaluateOne(const CommandLine& line,
+                              const ReferenceTrajectory& reference,
+                              const std::string& estimate,
+                              const std::optional<Evaluation>& other) {
+  EvaluatedEstimate one;
+  Evaluation& evaluation = one.evaluation;
+  evaluation.estimate = estimate;
+  evaluation.reference = reference;
+  const std::filesystem::path file = EstimateFile(estimate);
+  evaluation.options = ErrorOptions(line, reference.format, file);
+  if (const auto text = line.Value("--time-offset")) evaluation.offset_ns = ParseOffset(*text);
+  if (other) {
+    evaluation.aligned_by = other->estimate;
+    evaluation.options.alignment = other->options.alignment;
+    evaluation.options.known_alignment = other->error.reference_from_estimate;
+  }
+  one.poses = ReadEstimate(line, file);
+  const auto error = CompareTrajectories(reference.poses, one.poses, evaluation.options);
+  if (!error) FailNoOverlap(file, reference.poses, one.poses);
+  evaluation.error = *error;
+  if (other) evaluation.error.degenerate = other->error.degenerate;
+  evaluation.unit_is_free =
+      IsMonocularRun(file) && !other && evaluation.options.alignment != TrajectoryAlignment::kSim3;
+  evaluation.frames_delivered = FramesDelivered(file, reference, one.poses);
+  one.lines = EvaluateLines(line, evaluation);
+  return one;
+}
+
+// Figures and trajectories, all made before the first is written.
+std::vector<FileContents> FilesToWrite(const EvaluateOutputs& outputs,
+                                       const std::string& json,
+                                       const std::vector<EvaluatedEstimate>& estimates) {
+  std::vector<FileContents> files;
+  if (outputs.json) files.push_back({*outputs.json, json});
+  std::vector<NamedError> errors;
+  for (const EvaluatedEstimate& each : estimates) {
+    errors.push_back({each.evaluation.name, &each.evaluation.error});
+  }
+  if (outputs.plot) {
+    const Figure figure =
+        errors.size() == 1 ? TrajectoryFigure(*errors.front().error) : TrajectoryFigure(errors);
+    files.push_back({*outputs.plot, FigureBytes(*outputs.plot, figure)});
+  }
+  if (outputs.plot_lines && estimates.front().lines) {
+    files.push_back(
+        {*outputs.plot_lines, FigureBytes(*outputs.plot_lines, *estimates.front().lines)});
+  }
+  for (std::size_t i = 0; i < outputs.aligned.size(); ++i) {
+    Trajectory aligned = estimates[i].poses;
+    for (StampedPose& pose : aligned) {
+      pose.world_from_camera = TransformPose(estimates[i].evaluation.error.reference_from_estimate,
+                                             pose.world_from_camera);
+    }
+    files.push_back(AlignedFile(outputs.aligned[i], aligned));
+  }
+  return files;
+}
+
 }  // namespace
 
 int EvaluateCommand(std::span<const std::string> arguments) {
@@ -271,27 +353,38 @@ int EvaluateCommand(std::span<const std::string> arguments) {
     std::cout << HelpText(EvaluateSyntax());
     return 0;
   }
-  std::optional<ReferenceFrame> frame;
-  if (const auto text = line.Value("--reference-frame")) {
-    frame = ParseChoice<ReferenceFrame>("--reference-frame", *text);
+  const std::vector<std::string> paths = line.PositionalsFrom(1);
+  for (const char* option : {"--lines", "--plot-lines"}) {
+    if (paths.size() == 1 || !line.Has(option)) continue;
+    throw InputError(std::string(option) + ": expected one estimate, found " +
+                     std::to_string(paths.size()));
   }
-  Evaluation evaluation;
-  evaluation.reference = LoadReference(line.Positional(0), frame);
-  if (line.Has("--mirror-y")) evaluation.reference.poses = MirroredY(evaluation.reference.poses);
-  const std::filesystem::path estimate_file = EstimateFile(line.Positional(1));
-  CheckOutputs(line, FilesRead(line, evaluation.reference, estimate_file));
-  const Trajectory estimate = ReadTrajectory(estimate_file).poses;
-  evaluation.options = ErrorOptions(line, evaluation.reference.format, estimate_file);
-  const auto error = CompareTrajectories(evaluation.reference.poses, estimate, evaluation.options);
-  if (!error) FailNoOverlap(evaluation.reference.poses, estimate);
-  evaluation.error = *error;
-  evaluation.frames_delivered = FramesDelivered(estimate_file, evaluation.reference, estimate);
-  EvaluateLines(line, evaluation);
-
-  if (const auto path = line.Value("--json"))
-    WriteFileAtomically(*path, EvaluationJson(evaluation));
-  if (const auto path = line.Value("--plot")) WriteFigure(*path, TrajectoryFigure(*error));
-  std::cout << EvaluationTable(evaluation);
+  const std::vector<std::string> names = ShortNames(paths);
+  const EvaluateOutputs outputs = ReadOutputs(line, names);
+  const ReferenceTrajectory reference = LoadReferenceFor(line, line.Positional(0));
+  for (const std::string& note : reference.notes) {
+    std::cerr << "plumbline: " << Printable(note, kLongestMessage) << '\n';
+  }
+  std::vector<std::filesystem::path> read;
+  for (const std::string& path : paths) read.push_back(EstimateFile(path));
+  if (const auto other = line.Value("--align-by")) read.push_back(EstimateFile(*other));
+  CheckOutputs(outputs, line.Positional(0), paths, FilesRead(line, reference, read));
+  const std::optional<Evaluation> other = EvaluateOther(line, reference);
+  std::vector<EvaluatedEstimate> estimates;
+  std::vector<Evaluation> evaluations;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    estimates.push_back(EvaluateOne(line, reference, paths[i], other));
+    estimates.back().evaluation.name = Printable(names[i]);
+    evaluations.push_back(estimates.back().evaluation);
+  }
+  const bool one = paths.size() == 1;
+  const std::string json = one ? EvaluationJson(evaluations[0]) : EvaluationsJson(evaluations);
+  WriteOutputs(outputs, FilesToWrite(outputs, json, estimates));
+  if (outputs.json_to_stdout) {
+    std::cout << json;
+  } else {
+    std::cout << (one ? EvaluationTable(evaluations[0]) : EvaluationsTable(evaluations));
+  }
   return 0;
 }
 

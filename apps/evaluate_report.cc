@@ -3,11 +3,14 @@
 #include "apps/evaluate_report.h"
 
 #include "plumbline/base/options.h"
+#include "plumbline/base/printable.h"
+#include "plumbline/io/trajectory_io.h"
 
 #include <algorithm>
 #include <iomanip>
 #include <numbers>
 #include <sstream>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -29,20 +32,40 @@ nlohmann::ordered_json ToJson(const std::optional<ErrorStatistics>& statistics, 
           {"rmse", factor * statistics->rmse},
           {"mean", factor * statistics->mean},
           {"median", factor * statistics->median},
-          {"max", factor * statistics->max}};
+          {"max", factor * statistics->max},
+          {"std", factor * statistics->deviation},
+          {"p75", factor * statistics->p75},
+          {"p95", factor * statistics->p95}};
+}
+
+constexpr int kErrorName = 14;  // width of the first column
+
+// The heads of the columns of AddRow.
+void AddHead(std::ostringstream& table, const std::string& name, int width) {
+  table << std::left << std::setw(width) << name << std::right;
+  for (const char* head : {"RMSE", "mean", "median", "std", "p75", "p95", "max"}) {
+    table << std::setw(10) << head;
+  }
+  table << std::setw(9) << "count" << '\n';
 }
 
 void AddRow(std::ostringstream& table,
             const std::string& name,
+            int width,
             const std::optional<ErrorStatistics>& statistics,
             double factor) {
-  table << std::left << std::setw(14) << name << std::right << std::setprecision(6);
+  table << std::left << std::setw(width) << name << std::right << std::setprecision(6);
   if (!statistics) {
     table << "  no pair of poses spans the window\n";
     return;
   }
-  for (const double value :
-       {statistics->rmse, statistics->mean, statistics->median, statistics->max}) {
+  for (const double value : {statistics->rmse,
+                             statistics->mean,
+                             statistics->median,
+                             statistics->deviation,
+                             statistics->p75,
+                             statistics->p95,
+                             statistics->max}) {
     table << ' ' << std::setw(9) << factor * value;
   }
   table << ' ' << std::setw(8) << statistics->count << '\n';
@@ -184,23 +207,11 @@ nlohmann::ordered_json LineMapJson(const Evaluation& evaluation) {
   return json;
 }
 
-}  // namespace
-
-std::string EvaluationTable(const Evaluation& evaluation) {
+// What holds for all estimates, and how each was aligned.
+void AddAlignment(std::ostringstream& table, const Evaluation& evaluation) {
   const TrajectoryError& error = evaluation.error;
-  std::ostringstream table;
-  table << std::fixed << std::setprecision(1);
-  table << "frames      " << error.estimated << " with a pose of ";
-  if (evaluation.frames_delivered) {
-    table << *evaluation.frames_delivered << " delivered ("
-          << 100.0 * static_cast<double>(error.estimated) /
-                 static_cast<double>(std::max<std::size_t>(1, *evaluation.frames_delivered))
-          << " %)";
-  } else {
-    table << "an unknown number";
-  }
-  table << ", " << error.poses.size() << " compared\n" << std::setprecision(6);
-  table << "alignment   " << NameOf(evaluation.options.alignment);
+  table << std::setprecision(6) << NameOf(evaluation.options.alignment);
+  if (evaluation.aligned_by) table << " by " << Printable(*evaluation.aligned_by);
   if (evaluation.options.alignment == TrajectoryAlignment::kSim3) {
     table << ", scale " << error.reference_from_estimate.scale;
     if (error.scale_drift) {
@@ -211,21 +222,39 @@ std::string EvaluationTable(const Evaluation& evaluation) {
     table << " (not determined by the positions: " << NameOf(*error.degenerate)
           << "; orientations decide the rest)";
   }
-  table << "\nwindow      " << WindowName(evaluation.options.window) << "\n\n";
-  table << std::setw(24) << "RMSE" << std::setw(10) << "mean" << std::setw(10) << "median"
-        << std::setw(10) << "max" << std::setw(9) << "count" << '\n';
-  AddRow(table, "ATE [m]", error.ate, 1);
-  AddRow(table, "RPE [m/s]", error.rpe, 1);
-  AddRow(table, "ROE [deg/s]", error.roe, kDegrees);
-  if (evaluation.lines) table << LineMapTable(evaluation);
-  return table.str();
+  if (evaluation.unit_is_free) {
+    table << " (of one camera: lengths of the estimate are in units of its own, not metres)";
+  }
 }
 
-std::string EvaluationJson(const Evaluation& evaluation) {
+void AddFrames(std::ostringstream& table, const Evaluation& evaluation) {
+  const TrajectoryError& error = evaluation.error;
+  table << error.estimated << " with a pose of ";
+  if (evaluation.frames_delivered) {
+    table << *evaluation.frames_delivered << " delivered (" << std::setprecision(1)
+          << 100.0 * static_cast<double>(error.estimated) /
+                 static_cast<double>(std::max<std::size_t>(1, *evaluation.frames_delivered))
+          << " %)";
+  } else {
+    table << "an unknown number";
+  }
+  table << ", " << error.poses.size() << " compared";
+}
+
+void AddOffset(std::ostringstream& table, const Evaluation& evaluation) {
+  if (evaluation.offset_ns == 0) return;
+  table << "time offset " << FormatStamp(evaluation.offset_ns)
+        << " s, added to the stamps of the estimate\n";
+}
+
+nlohmann::ordered_json ToJson(const Evaluation& evaluation) {
   const TrajectoryError& error = evaluation.error;
   nlohmann::ordered_json json;
   json["alignment"] = NameOf(evaluation.options.alignment);
+  json["aligned_by"] = nullptr;
+  if (evaluation.aligned_by) json["aligned_by"] = *evaluation.aligned_by;
   json["association"] = NameOf(evaluation.options.association);
+  json["time_offset_s"] = 1e-9 * static_cast<double>(evaluation.offset_ns);
   json["window"] = WindowName(evaluation.options.window);
   json["frames_delivered"] = nullptr;
   json["frames_with_pose"] = error.estimated;
@@ -237,8 +266,7 @@ std::string EvaluationJson(const Evaluation& evaluation) {
         static_cast<double>(error.estimated) / static_cast<double>(*evaluation.frames_delivered);
   }
   json["scale"] = error.reference_from_estimate.scale;
-  json["scale_drift"] = nullptr;
-  if (error.scale_drift) json["scale_drift"] = *error.scale_drift;
+  json["scale_drift"] = OrNull(error.scale_drift);
   json["degenerate"] = nullptr;
   if (error.degenerate) json["degenerate"] = NameOf(*error.degenerate);
   json["ate_m"] = ToJson(error.ate, 1);
@@ -246,8 +274,86 @@ std::string EvaluationJson(const Evaluation& evaluation) {
   json["roe_deg_per_s"] = ToJson(error.roe, kDegrees);
   json["line_map"] = nullptr;
   if (evaluation.lines) json["line_map"] = LineMapJson(evaluation);
-  constexpr int kIndent = 2;
-  return json.dump(kIndent) + "\n";
+  return json;
+}
+
+// The text of a value. Bytes of a path that are no UTF-8 become the sign for that.
+std::string TextOf(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string EvaluationTable(const Evaluation& evaluation) {
+  const TrajectoryError& error = evaluation.error;
+  std::ostringstream table;
+  table << std::fixed << "frames      ";
+  AddFrames(table, evaluation);
+  table << "\nalignment   ";
+  AddAlignment(table, evaluation);
+  table << '\n';
+  AddOffset(table, evaluation);
+  table << "window      " << WindowName(evaluation.options.window) << "\n\n";
+  AddHead(table, "", kErrorName);
+  AddRow(table, "ATE [m]", kErrorName, error.ate, 1);
+  AddRow(table, "RPE [m/s]", kErrorName, error.rpe, 1);
+  AddRow(table, "ROE [deg/s]", kErrorName, error.roe, kDegrees);
+  if (evaluation.lines) table << LineMapTable(evaluation);
+  return table.str();
+}
+
+std::string EvaluationJson(const Evaluation& evaluation) { return TextOf(ToJson(evaluation)); }
+
+std::string EvaluationsTable(const std::vector<Evaluation>& evaluations) {
+  std::size_t longest = kErrorName - 2;
+  for (const Evaluation& each : evaluations) longest = std::max(longest, each.name.size());
+  const int width = static_cast<int>(longest) + 2;
+  std::ostringstream table;
+  table << std::fixed;
+  const auto name = [&](const Evaluation& each) {
+    table << std::left << std::setw(width) << each.name << std::right;
+  };
+  table << "frames\n";
+  for (const Evaluation& each : evaluations) {
+    name(each);
+    AddFrames(table, each);
+    table << '\n';
+  }
+  table << "\nalignment\n";
+  for (const Evaluation& each : evaluations) {
+    name(each);
+    AddAlignment(table, each);
+    table << '\n';
+  }
+  table << '\n';
+  AddOffset(table, evaluations.front());
+  table << "window      " << WindowName(evaluations.front().options.window) << '\n';
+  const auto add = [&](const char* error, auto member, double factor) {
+    table << '\n';
+    AddHead(table, error, width);
+    for (const Evaluation& each : evaluations) {
+      AddRow(table, each.name, width, each.error.*member, factor);
+    }
+  };
+  add("ATE [m]", &TrajectoryError::ate, 1);
+  add("RPE [m/s]", &TrajectoryError::rpe, 1);
+  add("ROE [deg/s]", &TrajectoryError::roe, kDegrees);
+  for (const Evaluation& each : evaluations) {
+    if (each.lines) table << "\nlines of " << each.name << LineMapTable(each);
+  }
+  return table.str();
+}
+
+std::string EvaluationsJson(const std::vector<Evaluation>& evaluations) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Evaluation& each : evaluations) {
+    nlohmann::ordered_json json = {{"estimate", each.estimate}, {"name", each.name}};
+    json.update(ToJson(each));
+    list.push_back(std::move(json));
+  }
+  nlohmann::ordered_json json;
+  json["estimates"] = std::move(list);
+  return TextOf(json);
 }
 
 }  // namespace plumbline

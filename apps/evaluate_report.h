@@ -8,10 +8,12 @@
 #include "apps/reference_trajectory.h"
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace plumbline {
 
@@ -27,7 +29,13 @@ constexpr auto EnumNames(std::type_identity<LineAlignment>) {
 
 // A comparison and what it was made of.
 struct Evaluation {
+  std::string estimate;  // as it was given
+  std::string name;      // what tables and figures call it, where there are several
   ReferenceTrajectory reference;
+  std::int64_t offset_ns = 0;             // what was added to the stamps of the estimate
+  std::optional<std::string> aligned_by;  // the trajectory whose alignment was taken
+  // Whether lengths of the estimate are in a unit of its own, which the alignment left as it is.
+  bool unit_is_free = false;
   TrajectoryErrorOptions options;
   TrajectoryError error;
   // Images that the run was given; nullopt where nothing beside the trajectories tells.
@@ -40,10 +48,16 @@ struct Evaluation {
 // A small table for people, with units.
 std::string EvaluationTable(const Evaluation& evaluation);
 
-// The same for programs. Keys: alignment, association, window, frames_delivered, frames_with_pose,
-// frames_compared, coverage, scale, degenerate, ate_m, rpe_m_per_s, roe_deg_per_s, line_map. The
-// three errors are {count, rmse, mean, median, max}, or null where there is nothing to compare;
-// line_map is null without lines. Shares are in [0, 1].
+// The same for programs. Keys: alignment, aligned_by, association, time_offset_s, window,
+// frames_delivered, frames_with_pose, frames_compared, coverage, scale, scale_drift, degenerate,
+// ate_m, rpe_m_per_s, roe_deg_per_s, line_map. The three errors are {count, rmse, mean, median,
+// max, std, p75, p95}, or null where there is nothing to compare; line_map is null without lines.
+// Shares are in [0, 1].
 std::string EvaluationJson(const Evaluation& evaluation);
+
+// The same of several estimates: for each error one table with a row for each of them; and
+// {"estimates": [...]}, each of the form of EvaluationJson below "estimate" and "name".
+std::string EvaluationsTable(const std::vector<Evaluation>& evaluations);
+std::string EvaluationsJson(const std::vector<Evaluation>& evaluations);
 
 }  // namespace plumbline

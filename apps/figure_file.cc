@@ -4,7 +4,6 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/image/image_codecs.h"
-#include "plumbline/io/atomic_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,9 +57,9 @@ void CheckFigureName(const std::filesystem::path& path) {
   throw InputError(path.string() + ": expected a file name ending in .svg or .png");
 }
 
-void WriteFigure(const std::filesystem::path& path, const Figure& figure) {
+std::string FigureBytes(const std::filesystem::path& path, const Figure& figure) {
   CheckFigureName(path);
-  WriteFileAtomically(path, path.extension() == ".svg" ? ToSvg(figure) : ToPng(figure));
+  return path.extension() == ".svg" ? ToSvg(figure) : ToPng(figure);
 }
 
 }  // namespace plumbline

@@ -5,15 +5,16 @@
 #include "plumbline/eval/figure.h"
 
 #include <filesystem>
+#include <string>
 
 namespace plumbline {
 
-// InputError unless the extension of the file is one that WriteFigure knows: to be asked before the
+// InputError unless the extension of the file is one that FigureBytes knows: to be asked before the
 // work is done.
 void CheckFigureName(const std::filesystem::path& path);
 
-// Writes a figure as .svg or .png, by the extension of the file; InputError for any other, and
-// where the file cannot be written.
-void WriteFigure(const std::filesystem::path& path, const Figure& figure);
+// Returns the bytes of a figure as .svg or .png, by the extension of the file that they are for;
+// InputError for any other.
+std::string FigureBytes(const std::filesystem::path& path, const Figure& figure);
 
 }  // namespace plumbline

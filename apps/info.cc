@@ -3,11 +3,15 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/options.h"
 #include "plumbline/base/printable.h"
+#include "plumbline/features/stereo_pair_check.h"
+#include "plumbline/image/rectify.h"
+#include "plumbline/io/camera_file.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/error_options.h"
 
+#include "apps/command_inputs.h"
 #include "apps/command_line.h"
 #include "apps/commands.h"
 #include <algorithm>
@@ -26,15 +30,19 @@ namespace plumbline {
 namespace {
 
 CommandSyntax InfoSyntax() {
-  return {
-      "info",
-      "Tells what is at a path: format, sensors, frames, rate, calibration, what is missing.",
-      {"PATH"},
-      {{"--sensor", "mono|stereo|rgbd", "look at the data as for this sensor (richest)"},
-       {"--format", "auto|euroc|tum|kitti|images|video|bag|mcap", "how the data is stored (auto)"},
-       {"--topic", "NAME", "images of a bag or an MCAP file; may be repeated"},
-       {"--camera", "FILE", "camera file or name of a built-in camera"},
-       {"--check", "", "decode every image and name those that cannot be used"}}};
+  return {"info",
+          "Tells what is at a path: format, sensors, frames, rate, calibration, what is missing.",
+          {"PATH"},
+          {{"--sensor", "mono|stereo|rgbd", "look at the data as for this sensor (richest)"},
+           {"--format",
+            "auto|euroc|tum|kitti|images|video|bag|mcap|rosbag2",
+            "how the data is stored (auto)"},
+           {"--topic", "NAME", "images of a bag or an MCAP file; may be repeated"},
+           {"--camera", "FILE", "camera file or name of a built-in camera"},
+           {"--ground-truth", "FILE|none", "poses to look at in place of those with the data"},
+           {"--rotate", "auto|none|90|180|270", kRotateHelp},
+           {"--max-width", "PIXELS", kMaxWidthHelp},
+           {"--check", "", "decode every image and name those that cannot be used"}}};
 }
 
 void Row(const std::string& name, const std::string& text) {
@@ -86,7 +94,10 @@ std::string Describe(const Camera& camera, bool rectified) {
 void PrintCalibration(const DatasetInfo& info) {
   const Calibration& c = info.calibration;
   if (!info.has_calibration) {
-    Row("camera", "missing: give --camera FILE, or put a camera.yaml into the folder");
+    Row("camera",
+        fmt::format(
+            "missing: give --camera FILE or one of {}, or put a camera.yaml into the folder",
+            fmt::join(BuiltInCameras(), ", ")));
     return;
   }
   Row("calibration", info.calibration_source);
@@ -100,7 +111,8 @@ void PrintCalibration(const DatasetInfo& info) {
 
 void PrintGroundTruth(const DatasetInfo& info) {
   if (!info.ground_truth) {
-    Row("ground truth", "none");
+    const auto& fault = info.ground_truth_fault;
+    Row("ground truth", fault ? "cannot be used: " + *fault : "none");
     return;
   }
   const std::int64_t max_gap_ns = ErrorOptionsFor(info.sensor, info.format).max_gap_ns;
@@ -142,6 +154,25 @@ void CheckImages(const Dataset& dataset) {
   Row("checked", fmt::format("{} of {} frames can be used", dataset.size() - bad, dataset.size()));
 }
 
+// What is wrong with the images of the first frames, where they are stereo pairs that do not fit
+// the calibration. Frames that cannot be read are left out.
+std::optional<std::string> PairFaultOf(const Dataset& dataset) {
+  if (!dataset.info().has_calibration || !dataset.calibration().right) return std::nullopt;
+  const Rectifier rectifier(dataset.calibration());
+  StereoPairCheck check(rectifier);
+  for (std::size_t i = 0; i < dataset.size(); ++i) {
+    if (!StereoPairCheck::LooksAt(i)) continue;
+    try {
+      const Expected<SensorFrame, ImageFailure> frame = dataset.Read(i);
+      if (!frame) continue;
+      if (const auto fault = check.Add(i, *frame)) return Describe(*fault);
+    } catch (const InputError&) {
+      continue;  // an image of another size, which --check names
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 int InfoCommand(std::span<const std::string> arguments) {
@@ -153,7 +184,10 @@ int InfoCommand(std::span<const std::string> arguments) {
   DatasetOptions options;
   options.allow_missing_camera = true;
   options.camera = line.Value("--camera");
+  options.ground_truth = line.Value("--ground-truth");
   options.topics = line.Values("--topic");
+  options.rotate = ReadRotation(line);
+  options.max_width = ReadMaxWidth(line);
   if (const auto text = line.Value("--sensor")) {
     options.sensor = ParseChoice<SensorKind>("--sensor", *text);
   }
@@ -163,7 +197,7 @@ int InfoCommand(std::span<const std::string> arguments) {
   const std::unique_ptr<Dataset> dataset = OpenDataset(line.Positional(0), options);
   const DatasetInfo& info = dataset->info();
   Row("name", info.name);
-  Row("format", NameOf(info.format));
+  Row("format", NameOf(info.format) + (info.layout.empty() ? "" : ", " + info.layout));
   std::vector<std::string> sensors;
   for (const SensorKind kind : info.available) sensors.push_back(NameOf(kind));
   Row("sensors", fmt::format("{} (shown: {})", fmt::join(sensors, ", "), NameOf(info.sensor)));
@@ -171,6 +205,7 @@ int InfoCommand(std::span<const std::string> arguments) {
   PrintCalibration(info);
   PrintGroundTruth(info);
   for (const std::string& note : info.notes) Row("note", note);
+  if (const auto fault = PairFaultOf(*dataset)) Row("note", *fault);
   if (line.Has("--check")) CheckImages(*dataset);
   return 0;
 }

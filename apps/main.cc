@@ -9,16 +9,20 @@
 #include "apps/commands.h"
 #include "apps/shortage.h"
 #include <array>
+#include <cstdlib>
 #include <exception>
 #include <iomanip>
 #include <iostream>
+#include <new>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
+#include <cxxabi.h>
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -110,6 +114,24 @@ void OpenStandardStreams() {
     if (::open("/dev/null", O_RDWR) != descriptor) return;  // the lowest free one, where it works
   }
 }
+
+std::terminate_handler terminate_before = nullptr;
+
+// What a library throws while it is loaded, or in a thread of its own, nobody catches.
+[[noreturn]] void SayOutOfMemory() {
+  const std::type_info* thrown = abi::__cxa_current_exception_type();
+  if (thrown != nullptr && *thrown == typeid(std::bad_alloc)) {
+    constexpr std::string_view kWords = "plumbline: out of memory\n";
+    if (::write(STDERR_FILENO, kWords.data(), kWords.size()) >= 0) ::_exit(1);
+  }
+  if (terminate_before != nullptr) terminate_before();
+  std::abort();
+}
+
+void CatchTermination() { terminate_before = std::set_terminate(SayOutOfMemory); }
+
+// Functions in this section are called before the libraries initialize themselves.
+[[gnu::section(".preinit_array"), gnu::used]] void (*const kBeforeLibraries)() = CatchTermination;
 
 }  // namespace
 }  // namespace plumbline

@@ -11,7 +11,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include <fmt/core.h>
@@ -52,20 +51,6 @@ const MapCommandRow& FindCommand(const std::string& name) {
 }
 
 }  // namespace
-
-void CheckMapOutput(std::string_view option,
-                    const std::filesystem::path& output,
-                    std::span<const std::string> inputs,
-                    const FileKind& kind) {
-  std::error_code error;
-  for (const std::string& input : inputs) {
-    if (!std::filesystem::equivalent(output, input, error)) continue;
-    throw InputError(fmt::format(
-        "{} {}: expected another file than {}, which is read", option, output.string(), input));
-  }
-  CheckKeepsResults(option, output);
-  CheckReplacesItsKind(option, output, kind);
-}
 
 int MapCommand(std::span<const std::string> arguments) {
   if (arguments.empty()) throw InputError("map: expected a command; see plumbline map --help");

@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "apps/command_outputs.h"
-#include <filesystem>
 #include <span>
 #include <string>
-#include <string_view>
 
 namespace plumbline {
 
@@ -16,13 +13,5 @@ int MapInfoCommand(std::span<const std::string> arguments);
 int MapExportCommand(std::span<const std::string> arguments);
 int MapMergeCommand(std::span<const std::string> arguments);
 int MapViewCommand(std::span<const std::string> arguments);
-
-// Throws InputError, which names the option, where writing `output` would take the place of what is
-// read (by whatever name: reading it is no leave to write over it), of a result of a run, or of a
-// file of another kind.
-void CheckMapOutput(std::string_view option,
-                    const std::filesystem::path& output,
-                    std::span<const std::string> inputs,
-                    const FileKind& kind);
 
 }  // namespace plumbline

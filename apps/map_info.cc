@@ -4,8 +4,10 @@
 #include "plumbline/io/map_io.h"
 
 #include "apps/command_line.h"
+#include "apps/command_outputs.h"
 #include "apps/map_commands.h"
 #include "apps/map_summary.h"
+#include <filesystem>
 #include <iostream>
 #include <span>
 #include <string>
@@ -28,14 +30,14 @@ int MapInfoCommand(std::span<const std::string> arguments) {
     std::cout << HelpText(MapInfoSyntax());
     return 0;
   }
-  const std::string& path = line.Positional(0);
+  const std::filesystem::path path = line.Positional(0);
   const auto json = line.Value("--json");
-  if (json) CheckMapOutput("--json", *json, {&path, 1}, {"JSON of map info", "{\n  \"file\": "});
+  if (json) CheckOutput("--json", *json, {&path, 1}, {"JSON of map info", "{\n  \"file\": "});
   const SavedAtlas saved = LoadAtlas(path);
   if (json) {
-    WriteFileAtomically(*json, MapInfoJson(path, saved));
+    WriteFileAtomically(*json, MapInfoJson(line.Positional(0), saved));
   }
-  std::cout << MapInfoTable(path, saved);
+  std::cout << MapInfoTable(line.Positional(0), saved);
   return 0;
 }
 

@@ -7,10 +7,12 @@
 #include "plumbline/io/text_rows.h"
 
 #include "apps/command_line.h"
+#include "apps/command_outputs.h"
 #include "apps/map_commands.h"
 #include "apps/merge_atlases.h"
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <span>
@@ -85,7 +87,8 @@ MergeRequest ReadMergeRequest(const CommandLine& line) {
   if (const auto transform = line.Value("--transform")) {
     request.first_from_second = ParseTransform(*transform);
   }
-  CheckMapOutput("--out", *out, std::array{request.first, request.second}, {"a map", kMapMagic});
+  const std::array<std::filesystem::path, 2> inputs = {request.first, request.second};
+  CheckOutput("--out", *out, inputs, MapFileKind());
   CheckWritable(*out);
   return request;
 }

@@ -3,14 +3,26 @@
 #include "apps/map_saver.h"
 
 #include "plumbline/io/map_io.h"
+#include "plumbline/mapping/outlier_removal.h"
 
 #include <exception>
 #include <utility>
 
 namespace plumbline {
 
-MapSaver::MapSaver(std::filesystem::path file)
-    : file_(std::move(file)), writer_([this] { WriteUntilStopped(); }) {}
+namespace {
+
+void CleanMaps(const LineWeights& weights, SavedAtlas& saved) {
+  const ImagingModel imaging{saved.context.camera, saved.context.octave_scale};
+  for (const auto& [id, map] : saved.atlas.maps()) {
+    saved.atlas.Find(id)->Apply(RemoveOutliers(map, imaging, weights));
+  }
+}
+
+}  // namespace
+
+MapSaver::MapSaver(std::filesystem::path file, const LineWeights& weights)
+    : file_(std::move(file)), weights_(weights), writer_([this] { WriteUntilStopped(); }) {}
 
 MapSaver::~MapSaver() {
   const std::lock_guard lock(mutex_);
@@ -34,10 +46,11 @@ void MapSaver::WriteUntilStopped() {
   while (true) {
     changed_.wait(lock, [this] { return stop_ || next_.has_value(); });
     if (stop_) return;
-    const SavedAtlas copy = *std::exchange(next_, std::nullopt);
+    SavedAtlas copy = *std::exchange(next_, std::nullopt);
     lock.unlock();
     std::optional<std::string> failure;
     try {
+      CleanMaps(weights_, copy);
       SaveAtlas(file_, copy.atlas, copy.context);
     } catch (const std::exception& error) {
       failure = error.what();

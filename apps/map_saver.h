@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/association/measurements.h"
 #include "plumbline/map/saved_atlas.h"
 
 #include <condition_variable>
@@ -14,11 +15,12 @@
 namespace plumbline {
 
 // Writes copies of a run's maps to a file while the run goes on, in a thread of its own: neither
-// tracking nor mapping waits for the disk.
+// tracking nor mapping waits for the disk. The copies are cleaned as the maps are when a run ends
+// (RemoveOutliers).
 class MapSaver {
  public:
-  // The file is replaced whole each time (SaveAtlas).
-  explicit MapSaver(std::filesystem::path file);
+  // The file is replaced whole each time (SaveAtlas). `weights` are those of the run's lines.
+  MapSaver(std::filesystem::path file, const LineWeights& weights);
   // Writes what it has begun with, and no more.
   ~MapSaver();
   MapSaver(const MapSaver&) = delete;
@@ -33,6 +35,7 @@ class MapSaver {
   void WriteUntilStopped();
 
   std::filesystem::path file_;
+  LineWeights weights_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<SavedAtlas> next_;

@@ -115,7 +115,7 @@ Json MapJson(const RectifiedCamera& camera, const Map& map) {
 std::string MapRows(const RectifiedCamera& camera, const Map& map) {
   constexpr double kNanoseconds = 1e9;
   const MapSummary summary = Summarize(camera, map);
-  const char* unit = camera.baseline > 0 ? " m" : "";
+  const char* unit = camera.baseline > 0 ? "m" : "units";
   std::string text = Row("keyframes", std::to_string(summary.keyframes));
   if (summary.time_ns) {
     const auto [first, last] = *summary.time_ns;
@@ -125,7 +125,7 @@ std::string MapRows(const RectifiedCamera& camera, const Map& map) {
                             FormatStamp(last),
                             static_cast<double>(last - first) / kNanoseconds));
   }
-  text += Row("path", fmt::format("{:.2f}{} along the keyframes", summary.path_length, unit));
+  text += Row("path", fmt::format("{:.2f} {} along the keyframes", summary.path_length, unit));
   std::string points = fmt::format("{}, seen by {:.1f} keyframes on average",
                                    summary.points,
                                    PerLandmark(summary.point_observations, summary.points));

@@ -10,8 +10,10 @@
 #include "plumbline/io/text_rows.h"
 #include "plumbline/report/run_manifest.h"
 
+#include <set>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -33,20 +35,22 @@ fs::path GroundTruthFile(const fs::path& path) {
   for (const fs::path& name : {"mav0" / euroc, euroc, fs::path("groundtruth.txt")}) {
     if (IsFile(path / name)) return path / name;
   }
-  const std::optional<fs::path> kitti = KittiPosesFile(path);
-  if (kitti && IsFile(*kitti)) return *kitti;
+  for (const fs::path& file : KittiPosesFiles(path)) {
+    if (IsFile(file)) return file;
+  }
   throw InputError(path.string() +
                    ": expected ground truth (mav0/state_groundtruth_estimate0/data.csv, "
                    "groundtruth.txt, poses.txt or KITTI's ../../poses/NUMBER.txt), found none");
 }
 
+// Counts the rows that begin with a number, each number once.
 std::optional<std::size_t> RowsWithNumbers(const fs::path& path, char separator) {
   if (!IsFile(path)) return std::nullopt;
-  std::size_t count = 0;
+  std::set<std::string> numbers;
   for (const TextRow& row : ReadRows(path, separator)) {
-    if (!row.fields.empty() && ParseNumber(row.fields.front())) ++count;
+    if (ParseNumber(row.fields.front())) numbers.insert(row.fields.front());
   }
-  return count;
+  return numbers.size();
 }
 
 std::optional<std::size_t> FramesBeside(const ReferenceTrajectory& reference) {
@@ -57,7 +61,7 @@ std::optional<std::size_t> FramesBeside(const ReferenceTrajectory& reference) {
     case TrajectoryFormat::kTum:
       return RowsWithNumbers(folder / "rgb.txt", ' ');
     case TrajectoryFormat::kKitti:
-      return reference.poses.size();
+      return ReadRows(reference.path, ' ').size();
   }
   return std::nullopt;
 }
@@ -84,8 +88,9 @@ std::optional<fs::path> FolderOfItsRun(const fs::path& trajectory) {
 ReferenceTrajectory LoadReference(const fs::path& path, std::optional<ReferenceFrame> frame) {
   ReferenceTrajectory reference;
   reference.path = fs::absolute(GroundTruthFile(path));
-  LoadedTrajectory loaded = ReadTrajectory(GroundTruthFile(path));
+  LoadedTrajectory loaded = ReadTrajectory(GroundTruthFile(path), BadRows::kLeaveOut);
   reference.format = loaded.format;
+  reference.notes = std::move(loaded.notes);
   reference.poses = std::move(loaded.poses);
   reference.frames = FramesBeside(reference);
   const bool euroc = reference.format == TrajectoryFormat::kEuroc;

@@ -9,8 +9,10 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace plumbline {
 
@@ -26,14 +28,16 @@ struct ReferenceTrajectory {
   TrajectoryFormat format = TrajectoryFormat::kTum;
   std::optional<std::size_t> frames;  // images of the sequence beside it, where they are listed
   std::filesystem::path path;         // the file that was read
+  std::vector<std::string> notes;     // which of its rows are left out
 };
 
 // Reads ground truth from a file (TUM form, EuRoC csv, KITTI poses) or from the folder of a data
 // set that has it.
 //
 // `frame` says what the poses are about; nullopt: the body for EuRoC, else the camera. Poses of a
-// body are converted with cam0/sensor.yaml of the same recording. Throws InputError where there is
-// no ground truth, or a body without that file.
+// body are converted with cam0/sensor.yaml of the same recording. Rows that cannot be used are left
+// out (BadRows::kLeaveOut). Throws InputError where there is no ground truth, no row of it that can
+// be used, or a body without that file.
 ReferenceTrajectory LoadReference(const std::filesystem::path& path,
                                   std::optional<ReferenceFrame> frame);
 

@@ -40,6 +40,7 @@
 #include <span>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -62,11 +63,16 @@ CommandSyntax RunSyntax() {
       "PATH: a data set; camera:N or camera:N,M; rtsp://...; gst:PIPELINE; - (standard input)",
       {"PATH"},
       {{"--sensor", "mono|stereo|rgbd", "default: the richest the data offers"},
-       {"--format", "auto|euroc|tum|kitti|images|video|bag|mcap", "default: found out from PATH"},
+       {"--format",
+        "auto|euroc|tum|kitti|images|video|bag|mcap|rosbag2",
+        "default: found out from PATH"},
        {"--topic", "NAME", "images of a bag or an MCAP file; may be repeated (left, right, depth)"},
        {"--side-by-side", "", "live: each image is a left and a right half"},
        {"--camera", "FILE", "camera file, or the name of a built-in camera"},
        {"--preset", "NAME", "the system of a paper: rippl, good-line-cutting"},
+       {"--ground-truth", "FILE|none", "poses to compare with (default: those with the data)"},
+       {"--rotate", "auto|none|90|180|270", kRotateHelp},
+       {"--max-width", "PIXELS", kMaxWidthHelp},
        {"--config", "FILE", "options from a YAML file; may be repeated"},
        {"--set", "KEY=VALUE", "one option; may be repeated"},
        {"--from", "N", "first frame (default 0)"},
@@ -139,6 +145,10 @@ std::string DescribeInput(const CommandLine& line) {
   if (range.from > 0) words.push_back(fmt::format("--from {}", range.from));
   if (range.stride > 1) words.push_back(fmt::format("--stride {}", range.stride));
   if (blur > 1) words.push_back(fmt::format("--blur {}", blur));
+  if (const Rotation rotate = ReadRotation(line); rotate != Rotation::kAuto) {
+    words.push_back(fmt::format("--rotate {}", NameOf(rotate)));
+  }
+  if (const auto width = ReadMaxWidth(line)) words.push_back(fmt::format("--max-width {}", *width));
   if (line.Has("--reverse")) words.emplace_back("--reverse");
   return fmt::format("{}", fmt::join(words, " "));
 }
@@ -240,12 +250,16 @@ DatasetOptions ReadDatasetOptions(const CommandLine& line) {
   const auto format = line.Value("--format");
   if (format && *format != "auto") options.format = ParseChoice<DatasetFormat>("--format", *format);
   options.camera = line.Value("--camera");
+  options.ground_truth = line.Value("--ground-truth");
   options.topics = line.Values("--topic");
+  options.rotate = ReadRotation(line);
+  options.max_width = ReadMaxWidth(line);
   return options;
 }
 
 RunFrames OpenLive(const CommandLine& line, const RunSetup& setup) {
-  for (const char* option : {"--format", "--topic", "--reverse", "--checkpoint", "--resume"}) {
+  for (const char* option :
+       {"--format", "--topic", "--ground-truth", "--reverse", "--checkpoint", "--resume"}) {
     if (line.Has(option)) {
       throw InputError(std::string(option) + ": expected a recording, found a live source");
     }
@@ -261,6 +275,8 @@ RunFrames OpenLive(const CommandLine& line, const RunSetup& setup) {
   options.sensor = ReadDatasetOptions(line).sensor;
   options.camera = line.Value("--camera");
   options.side_by_side = line.Has("--side-by-side");
+  options.rotate = ReadRotation(line);
+  options.max_width = ReadMaxWidth(line);
   input.live = OpenLiveSource(line.Positional(0), options);
   input.dataset = std::make_shared<PassedFrames>(input.live->info());
   return input;
@@ -342,9 +358,21 @@ void ResumeFrom(RunSetup& setup, System& system, RunFrames& input) {
   }
 }
 
+// A recording has a file beside it until it is complete.
+void CheckOutputsApart(const RunSetup& setup) {
+  std::vector<std::pair<std::string_view, std::filesystem::path>> outputs;
+  if (setup.view.record) {
+    outputs.emplace_back("--record", *setup.view.record);
+    outputs.emplace_back("--record", McapFileWriter::PartOf(*setup.view.record));
+  }
+  if (setup.checkpoint) outputs.emplace_back("--checkpoint", *setup.checkpoint);
+  CheckApartFromEachOther(outputs);
+}
+
 // The recording and the checkpoint take the places of files when they are complete. Only the
 // checkpoint that the run goes on from may be replaced: it was read whole.
 void CheckFilesApart(const RunSetup& setup, std::vector<RunInput> inputs) {
+  CheckOutputsApart(setup);
   if (setup.view.record) {
     CheckFileApart("--record", *setup.view.record, inputs);
     CheckFileApart("--record", McapFileWriter::PartOf(*setup.view.record), inputs);
@@ -353,8 +381,6 @@ void CheckFilesApart(const RunSetup& setup, std::vector<RunInput> inputs) {
     CheckReplaceable(*setup.view.record);
     const std::string beginning = McapFileWriter::Beginning();
     CheckReplacesItsKind("--record", *setup.view.record, {"a recording by plumbline", beginning});
-    inputs.push_back({*setup.view.record});
-    inputs.push_back({McapFileWriter::PartOf(*setup.view.record)});
   }
   if (!setup.checkpoint) return;
   CheckNoResult("--checkpoint", *setup.checkpoint, setup.folder);
@@ -406,6 +432,7 @@ void SayBefore(const Dataset& dataset,
   for (const std::string& note : map_notes) Say(note);
   if (quiet) return;
   for (const std::string& note : dataset.info().notes) Say(note);
+  if (const auto& fault = dataset.info().ground_truth_fault) Say("no errors: " + *fault);
 }
 
 // What came of a live source, when it is known.
@@ -495,13 +522,22 @@ int RunCommand(std::span<const std::string> arguments) {
                              setup.options.slam.seed,
                              ToBeShown(arguments)};
   description.frames_chosen = input.frames.size();
+  description.notes = processed.notes;
   const WrittenResults written = WriteResults(
       {system, dataset, views, std::move(description), processed.first_pose_seconds, start},
       folder);
   if (!setup.quiet) Print(system, dataset, setup);
   if (input.viewer) KeepShowing(line, system, *input.viewer, setup.quiet);
   RethrowFailures(processed, written.failure);
-  return written.interrupted ? written.interrupted->exit_code : 0;
+  if (written.interrupted) return written.interrupted->exit_code;
+  const auto no_pose = WhyNoPose(system.frames(), processed.no_depth);
+  if (no_pose) Say(*no_pose);
+  if (written.earlier_kept) {
+    Say(fmt::format("{} keeps the results of an earlier run; {} has those of this one",
+                    folder.path().string(),
+                    folder.part().string()));
+  }
+  return no_pose ? 1 : 0;
 }
 
 }  // namespace plumbline

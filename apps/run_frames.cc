@@ -3,6 +3,7 @@
 #include "apps/run_frames.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/features/stereo_pair_check.h"
 #include "plumbline/image/box_filter.h"
 #include "plumbline/io/checkpoint_io.h"
 #include "plumbline/report/summary.h"
@@ -30,6 +31,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kOverlays = 6;
 constexpr auto kPauseStep = std::chrono::milliseconds(10);
+// A depth camera may need some images until it measures.
+constexpr int kManyWithoutDepth = 10;
 
 // Every image of the frame through the box filter of --blur (0: as it is). Depth stays.
 SensorFrame Blurred(SensorFrame frame, int size) {
@@ -37,6 +40,14 @@ SensorFrame Blurred(SensorFrame frame, int size) {
   frame.left = BoxFiltered(frame.left, size);
   if (frame.right) frame.right = BoxFiltered(*frame.right, size);
   return frame;
+}
+
+bool HasAnyDepth(const DepthImage& depth) {
+  for (int y = 0; y < depth.height(); ++y) {
+    const auto* row = depth.row(y);
+    if (std::any_of(row, row + depth.width(), [](auto value) { return value != 0; })) return true;
+  }
+  return false;
 }
 
 std::unique_ptr<FrameInput> OpenFrames(const RunFrames& input, RunMode mode, FrameInput::Say say) {
@@ -58,11 +69,13 @@ class FrameFeed {
         views_(views),
         progress_(input.live != nullptr ? std::nullopt : std::optional(input.frames.size()), quiet),
         journal_(input.dataset->info().time_mirror_ns),
-        saver_(input.save_every_s > 0 ? std::make_shared<MapSaver>(folder.part() / "map.plb")
+        saver_(input.save_every_s > 0 ? std::make_shared<MapSaver>(folder.part() / "map.plb",
+                                                                   system.options().lines.weights())
                                       : nullptr),
         frames_(OpenFrames(input,
                            system.options().slam.mode,
                            [this](const std::string& message) { progress_.Say(message); })),
+        pair_check_(system.rectifier()),
         pipeline_(system, [this](const FrameRecord& record, const FrameView& view) {
           Observe(record, view);
         }) {}
@@ -77,7 +90,7 @@ class FrameFeed {
     NameShortage();
     if (result_.failure && system_.frames().empty()) std::rethrow_exception(result_.failure);
     if (!system_.frames().empty()) folder_.Keep();
-    Report(journal_.Write(folder_));
+    Keeping([&] { Report(journal_.Write(folder_)); });
     SayStopped();
     Keeping([&] { pipeline_.Finish(StepStop()); });
     NameShortage();
@@ -163,15 +176,38 @@ class FrameFeed {
 
   void Feed() {
     const auto go_on = [this] { return GoOn(); };
-    while (true) {
+    for (std::size_t position = 0;; ++position) {
       WaitWhilePaused();
       auto next = frames_->Next(go_on);
       if (!next) return;
       if (next->frame) {
+        CheckPair(position, *next->frame);
+        WatchDepth(*next->frame);
         pipeline_.Feed(Blurred(*std::move(next->frame), input_.blur));
       } else {
         pipeline_.Skip(next->stamp_ns, next->reason);
       }
+    }
+  }
+
+  // In the thread that feeds. Tells of a stereo pair that does not fit the calibration, once.
+  void CheckPair(std::size_t position, const SensorFrame& frame) {
+    const auto fault = pair_check_.Add(position, frame);
+    if (!fault) return;
+    result_.notes.push_back(Describe(*fault, input_.dataset->info().time_mirror_ns.has_value()));
+    if (!quiet_) progress_.Say(result_.notes.back());
+  }
+
+  // Tells of a depth camera that measures nothing, as long as no image has any depth.
+  void WatchDepth(const SensorFrame& frame) {
+    if (!frame.depth || (without_depth_ > 0 && !result_.no_depth)) return;
+    result_.no_depth = !HasAnyDepth(*frame.depth);
+    ++without_depth_;
+    if (result_.no_depth && without_depth_ == kManyWithoutDepth) {
+      progress_.Say(
+          fmt::format("depth is zero everywhere in the first {} depth images: without "
+                      "depth no map begins",
+                      without_depth_));
     }
   }
 
@@ -216,6 +252,7 @@ class FrameFeed {
   RunFolder& folder_;
   KeptViews& views_;
   Processed result_;
+  int without_depth_ = 0;           // depth images that were looked at
   const char* shortage_ = nullptr;  // that result_.failure is about, while it has no name
   MemoryReserve reserve_;
   Progress progress_;
@@ -223,6 +260,7 @@ class FrameFeed {
   std::shared_ptr<MapSaver> saver_;  // null where nothing is to be saved before the end
   Clock::time_point saved_ = Clock::now();
   std::unique_ptr<FrameInput> frames_;
+  StereoPairCheck pair_check_;
   Pipeline pipeline_;  // last: its thread calls Observe
 };
 

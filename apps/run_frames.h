@@ -64,6 +64,8 @@ struct Processed {
   // was short of too, or something unforeseen.
   std::exception_ptr failure;
   std::optional<std::string> not_recorded;  // why --record has no whole file
+  std::vector<std::string> notes;           // what the images showed to be wrong with the data
+  bool no_depth = false;                    // there were depth images, and all were zero everywhere
 };
 
 // Reads the frames and feeds them to the system until there are no more, somebody asks to stop

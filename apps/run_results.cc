@@ -12,13 +12,22 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <new>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 namespace plumbline {
 namespace {
+
+bool HasNoPose(const System& system) {
+  const FrameLog& frames = system.frames();
+  return std::none_of(frames.begin(), frames.end(), [](const FrameRecord& frame) {
+    return frame.status == FrameStatus::kTracked;
+  });
+}
 
 class ResultWriter {
  public:
@@ -38,6 +47,9 @@ class ResultWriter {
     if (NoteSignal()) {  // it came after the summary was written
       WriteSummary();
       WriteReport();
+    }
+    if (folder_.HoldsPoses() && HasNoPose(run_.system)) {
+      return {folder_.Failures(), interrupted_, true};
     }
     return {PutInPlace(), interrupted_};
   }
@@ -143,6 +155,23 @@ WrittenResults WriteResults(const FinishedRun& run, RunFolder& folder) {
   return ResultWriter(run, folder).WriteAll();
 }
 
+std::optional<std::string> WhyNoPose(const FrameLog& frames, bool no_depth) {
+  std::map<std::string, int> counts;
+  for (const FrameRecord& frame : frames) {
+    if (frame.status == FrameStatus::kTracked) return std::nullopt;
+    ++counts[frame.reason];
+  }
+  const auto most =
+      std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) {
+        return a.second < b.second;
+      });
+  std::string why = "no frame has a pose";
+  if (most != counts.end()) {
+    why += fmt::format(": {} for {} of {} frames", most->first, most->second, frames.size());
+  }
+  return no_depth ? why + "; depth is zero everywhere" : why;
+}
+
 void PrintResult(const System& system, const Dataset& dataset, const std::string& folder) {
   const RunCounts counts = CountRun(system);
   std::cout << fmt::format(
@@ -174,7 +203,11 @@ void PrintResult(const System& system, const Dataset& dataset, const std::string
       counts.points,
       counts.lines,
       counts.maps > 1 ? fmt::format(" (largest of {} maps)", counts.maps) : std::string());
-  if (const auto error = CompareWithGroundTruth(system, dataset)) {
+  const auto error = CompareWithGroundTruth(system, dataset);
+  if (error && error->poses.size() < 3) {  // any two trajectories can be laid on each other
+    std::cout << fmt::format("no errors: {} of the poses has ground truth, three are needed\n",
+                             error->poses.size());
+  } else if (error) {
     const double scale = error->reference_from_estimate.scale;
     const bool mono = dataset.sensor() == SensorKind::kMono;
     std::cout << fmt::format(
@@ -183,9 +216,8 @@ void PrintResult(const System& system, const Dataset& dataset, const std::string
         mono ? fmt::format(" (scale {:.4g})", scale) : std::string(),
         error->poses.size(),
         100.0 * static_cast<double>(error->estimated) / std::max(counts.frames, 1));
-  } else if (counts.tracked > 0) {
-    std::cout << (dataset.info().ground_truth ? "no errors: the ground truth covers no pose\n"
-                                              : "no errors: no ground truth with the data\n");
+  } else if (counts.tracked > 0 && !dataset.info().ground_truth_fault) {  // told at the start
+    std::cout << "no errors: " << WhyNoErrors(dataset.info()) << '\n';
   }
   std::cout << "results in " << Printable(folder, kLongestMessage) << '\n';
 }

@@ -29,6 +29,7 @@ struct FinishedRun {
 struct WrittenResults {
   std::optional<std::string> failure;     // which files could not be written, in one line
   std::optional<StopSignal> interrupted;  // as the summary has it
+  bool earlier_kept = false;              // no frame has a pose, and those of an earlier run stay
 };
 
 // Writes all files of a run into the part of its folder, those first that are worth most for their
@@ -38,6 +39,9 @@ struct WrittenResults {
 // Files that cannot be written do not keep the others from it. Where these would replace whole
 // results of an earlier run, those stay, and these are in the part.
 WrittenResults WriteResults(const FinishedRun& run, RunFolder& folder);
+
+// Returns why a run found no pose at all, in one line; nullopt where a frame has one.
+std::optional<std::string> WhyNoPose(const FrameLog& frames, bool no_depth);
 
 // A few lines on standard output.
 void PrintResult(const System& system, const Dataset& dataset, const std::string& folder);

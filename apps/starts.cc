@@ -82,7 +82,7 @@ struct Setup {
   bool quiet = false;
 };
 
-Setup ReadSetup(const CommandLine& line) {
+Setup ReadStartSetup(const CommandLine& line) {
   Setup setup;
   OptionTable table(setup.options);
   for (const std::string& file : line.Values("--config")) table.LoadFile(file);
@@ -246,11 +246,12 @@ int StartsCommand(std::span<const std::string> arguments) {
     return 0;
   }
   const auto began = Clock::now();
-  const Setup setup = ReadSetup(line);
+  const Setup setup = ReadStartSetup(line);
   const auto dataset =
       OpenDataset(line.Positional(0), {.sensor = SensorKind::kMono, .camera = setup.camera});
   if (!dataset->info().ground_truth && !line.Has("--poses")) {
-    throw InputError(dataset->info().path.string() + ": expected ground truth, found none");
+    throw InputError(dataset->info().ground_truth_fault.value_or(
+        dataset->info().path.string() + ": expected ground truth, found none"));
   }
   StartPlan plan = ReadPlan(line, *dataset);
   CheckApart(setup.folder, CommandInputs(line, *dataset));

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/random.h"
 #include "plumbline/solvers/essential.h"
 #include "plumbline/solvers/homography.h"
 #include "plumbline/solvers/pose_refinement.h"

@@ -5,6 +5,7 @@ find_package(yaml-cpp REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(SQLite3 3.40 REQUIRED)
 find_package(zstd REQUIRED)
 find_package(Boost 1.74 REQUIRED)  # headers alone
 find_package(Threads REQUIRED)

@@ -8,6 +8,7 @@ set(PLUMBLINE_PACKAGE_CONTACT "The Plumbline authors <plumbline@localhost>" CACH
 # The Debian package that holds each CMake package which find_package(plumbline) looks for.
 set(debian_package_Eigen3 "libeigen3-dev (>= 3.4)")
 set(debian_package_OpenCV "libopencv-dev (>= 4.6)")
+set(debian_package_SQLite3 "libsqlite3-dev")
 set(debian_package_Threads "libc6-dev")
 set(debian_package_embree "libembree-dev")
 set(debian_package_fmt "libfmt-dev")

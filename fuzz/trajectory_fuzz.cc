@@ -21,7 +21,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::filesystem::path file = Folder().Write("input.txt", AsText(data, size));
   LoadedTrajectory loaded;
   try {
+    const LoadedTrajectory reference = ReadTrajectory(file, BadRows::kLeaveOut);
+    PLUMBLINE_CHECK(!reference.poses.empty(), "a reference has poses");
     loaded = ReadTrajectory(file);
+    // Nothing is left out of a file without faults.
+    PLUMBLINE_CHECK(reference.poses.size() == loaded.poses.size(), "the same poses");
   } catch (const InputError&) {
     return 0;
   }

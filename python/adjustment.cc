@@ -9,6 +9,7 @@
 #include "bindings.h"
 #include "interruptible.h"
 #include "options.h"
+#include "texts.h"
 #include <algorithm>
 #include <array>
 #include <string>
@@ -31,7 +32,7 @@ class Columns {
     }
     columns_ = py::reinterpret_borrow<py::dict>(value);
     for (const auto& [key, column] : columns_) {
-      const std::string found = py::str(key).cast<std::string>();
+      const std::string found = ReadText(py::str(key), name_);
       if (std::find(allowed.begin(), allowed.end(), found) != allowed.end()) continue;
       std::string names;
       for (const std::string_view one : allowed) {

@@ -13,11 +13,11 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "sensor_kind.h"
+#include "texts.h"
 #include <string>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 namespace plumbline::python {
 namespace {

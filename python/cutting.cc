@@ -7,6 +7,7 @@
 #include "apps/command_line.h"
 #include "arrays.h"
 #include "bindings.h"
+#include "texts.h"
 #include <string>
 #include <vector>
 
@@ -79,10 +80,10 @@ CuttingOptions ReadMethod(const py::kwargs& given) {
     if (!py::isinstance<py::str>(value)) {
       throw InputError(std::string(name) + ": expected a text, found " + Describe(value));
     }
-    return value.cast<std::string>();
+    return ReadText(value, name);
   };
   for (const auto& [key, value] : given) {
-    const auto name = key.cast<std::string>();
+    const std::string name = ReadText(key, "cut_lines");
     if (name == "method") {
       options.method = ParseChoice<CuttingMethod>("method", text("method", value));
     } else if (name == "information") {

@@ -4,6 +4,7 @@
 #include "plumbline/base/options.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/open_dataset.h"
+#include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/error_options.h"
 #include "plumbline/report/playback_schedule.h"
 
@@ -12,6 +13,7 @@
 #include "bindings.h"
 #include "frames.h"
 #include "iteration.h"
+#include "texts.h"
 #include "trajectories.h"
 #include <chrono>
 #include <cstdint>
@@ -23,21 +25,31 @@
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 namespace plumbline::python {
 namespace {
+
+// How images are prepared, by the names of Python.
+struct Preparation {
+  std::optional<std::filesystem::path> ground_truth;
+  std::string rotate;
+  std::optional<int> max_width;
+};
 
 std::shared_ptr<Dataset> Open(const std::filesystem::path& path,
                               const std::optional<std::string>& sensor,
                               const std::optional<std::string>& camera,
                               const std::optional<std::string>& format,
-                              const std::vector<std::string>& topics) {
+                              const std::vector<std::string>& topics,
+                              const Preparation& preparation) {
   DatasetOptions options;
+  if (preparation.ground_truth) options.ground_truth = preparation.ground_truth->string();
   options.topics = topics;
   if (sensor) options.sensor = ParseChoice<SensorKind>("sensor", *sensor);
   if (format) options.format = ParseChoice<DatasetFormat>("format", *format);
   options.camera = camera;
+  options.rotate = ParseChoice<Rotation>("rotate", preparation.rotate);
+  options.max_width = preparation.max_width;
   const py::gil_scoped_release release;
   return OpenDataset(path, options);
 }
@@ -117,7 +129,16 @@ void BindFrame(py::module_& module) {
             return View(*depth, self);
           },
           "(rows, columns) float32 in metres along z, 0: not measured, or None; read-only, keeps "
-          "the frame alive.");
+          "the frame alive.")
+      .def("__repr__", [](const PyFrame& frame) {
+        const SensorFrame& images = frame.images;
+        return fmt::format("<Frame at {} s: {}{} of {} x {}>",
+                           FormatStamp(images.stamp_ns),
+                           images.right ? "pair" : "image",
+                           images.depth ? " with depth" : "",
+                           images.left.width(),
+                           images.left.height());
+      });
 }
 
 void BindPlaybackSchedule(py::module_& module) {
@@ -148,6 +169,41 @@ void BindPlaybackSchedule(py::module_& module) {
           "When the frame of this stamp is due, which was read between these times.");
 }
 
+void BindOpen(py::module_& module) {
+  module.def(
+      "open",
+      [](const std::filesystem::path& path,
+         const std::optional<std::string>& sensor,
+         const std::optional<std::string>& camera,
+         const std::optional<std::string>& format,
+         const std::vector<std::string>& topics,
+         const std::optional<std::filesystem::path>& ground_truth,
+         const std::string& rotate,
+         std::optional<int> max_width) {
+        return Open(path, sensor, camera, format, topics, {ground_truth, rotate, max_width});
+      },
+      py::arg("path"),
+      py::arg("sensor") = py::none(),
+      py::arg("camera") = py::none(),
+      py::arg("format") = py::none(),
+      py::arg("topics") = py::tuple(),
+      py::arg("ground_truth") = py::none(),
+      py::arg("rotate") = "auto",
+      py::arg("max_width") = py::none(),
+      R"(open(path, sensor=None, camera=None, format=None, topics=(), ground_truth=None,
+     rotate="auto", max_width=None) -> Dataset
+
+Opens a EuRoC folder, a TUM or ICL folder, a KITTI sequence, a folder of images, a bag of ROS 1 or
+ROS 2 (a folder or a .db3), an MCAP file or a video. sensor: "mono", "stereo" or "rgbd" (None: the richest the data offers).
+camera: a camera file or the name of a built-in camera. format: "euroc", "tum", "kitti", "images",
+"video", "bag", "mcap" or "rosbag2" (None: found out). topics: of a bag or MCAP file, those of the
+images, in the order left, right, depth (empty: found out). ground_truth: a file of poses in place of those with the data,
+"none" for none. rotate: "auto", "none", "90", "180" or "270", clockwise ("auto": as a video or the
+EXIF data of stills ask). max_width: wider images are reduced to this width (None: to 2 megapixels).
+Frames and calibration are those of the images as used. Raises InputError with the program's
+message.)");
+}
+
 }  // namespace
 
 void BindDatasets(py::module_& module) {
@@ -173,7 +229,7 @@ the order of time, read when they are asked for. len(), indices and iteration.)"
           [](const Dataset& dataset) { return ToArray(dataset.info().stamps_ns); },
           "(N,) int64, nanoseconds; a new array.")
       .def_property_readonly("calibration", &Dataset::calibration)
-      .def_property_readonly("name", [](const Dataset& d) { return d.info().name; })
+      .def_property_readonly("name", [](const Dataset& d) { return ToText(d.info().name); })
       .def_property_readonly("path", [](const Dataset& d) { return d.info().path; })
       .def_property_readonly(
           "sensor",
@@ -182,28 +238,24 @@ the order of time, read when they are asked for. len(), indices and iteration.)"
       .def_property_readonly("format", [](const Dataset& d) { return NameOf(d.info().format); })
       .def_property_readonly(
           "notes",
-          [](const Dataset& d) { return d.info().notes; },
+          [](const Dataset& d) {
+            py::list notes;
+            for (const std::string& note : d.info().notes) notes.append(ToText(note));
+            return notes;
+          },
           "What is missing or left out, a sentence each.")
       .def_property_readonly(
           "ground_truth", TruthOf, "Trajectory of the left camera; None where there is none.")
+      .def_property_readonly(
+          "ground_truth_fault",
+          [](const Dataset& d) { return d.info().ground_truth_fault; },
+          "Why the ground truth that came with the data cannot be used, with file and line, or "
+          "None.")
       .def("__repr__", [](const Dataset& d) {
-        return fmt::format(
-            "<Dataset {}, {}, {} frames>", d.info().name, NameOf(d.sensor()), d.size());
+        return ToText(fmt::format(
+            "<Dataset {}, {}, {} frames>", d.info().name, NameOf(d.sensor()), d.size()));
       });
-  module.def("open",
-             &Open,
-             py::arg("path"),
-             py::arg("sensor") = py::none(),
-             py::arg("camera") = py::none(),
-             py::arg("format") = py::none(),
-             py::arg("topics") = py::tuple(),
-             R"(open(path, sensor=None, camera=None, format=None, topics=()) -> Dataset
-
-Opens a EuRoC folder, a TUM or ICL folder, a KITTI sequence, a folder of images, a ROS 1 bag, an
-MCAP file or a video. sensor: "mono", "stereo" or "rgbd" (None: the richest the data offers).
-camera: a camera file or the name of a built-in camera. format: "euroc", "tum", "kitti", "images",
-"video", "bag" or "mcap" (None: found out). topics: of a bag or MCAP file, those of the images, the
-left camera first (empty: found out). Raises InputError with the program's message.)");
+  BindOpen(module);
 }
 
 }  // namespace plumbline::python

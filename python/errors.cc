@@ -5,6 +5,8 @@
 #include "bindings.h"
 #include <cstring>
 #include <exception>
+#include <map>
+#include <regex>
 #include <string>
 
 namespace plumbline::python {
@@ -22,6 +24,38 @@ PyObject* MakeError(py::module_& module,
   if (error == nullptr) throw py::error_already_set();
   module.add_object(name, error);
   return error;
+}
+
+// Returns a message of the program in the words of Python: options are the arguments that they
+// become, "give --camera FILE" is "give camera=FILE". Those that Python has none for stay.
+std::string WithArguments(const std::string& message) {
+  static const std::map<std::string, std::string> arguments = {{"camera", "camera"},
+                                                               {"format", "format"},
+                                                               {"frames", "frames"},
+                                                               {"images", "images"},
+                                                               {"map", "map"},
+                                                               {"out", "out"},
+                                                               {"sensor", "sensor"},
+                                                               {"to", "format"},
+                                                               {"topic", "topics"},
+                                                               {"trajectory", "trajectory"}};
+  static const std::regex option(R"((^|[ (])--(set |[a-z]+(?:-[a-z]+)*)(?: ([A-Z]+)\b)?)");
+  std::string text;
+  auto rest = message.cbegin();
+  for (std::sregex_iterator it(message.begin(), message.end(), option), end; it != end; ++it) {
+    const std::smatch& found = *it;
+    text.append(rest, found[0].first);
+    rest = found[0].second;
+    const auto argument = arguments.find(found[2].str());
+    if (found[2] == "set ") {  // an option of a run, which has its name behind it
+      text += found[1].str() + found[3].str();
+    } else if (argument == arguments.end()) {
+      text += found[0].str();
+    } else {
+      text += found[1].str() + argument->second + (found[3].matched ? "=" + found[3].str() : "");
+    }
+  }
+  return text.append(rest, message.cend());
 }
 
 // Raises it with a message that may hold any bytes, such as those of a file's name.
@@ -52,7 +86,7 @@ void BindErrors(py::module_& module) {
     try {
       if (failure) std::rethrow_exception(failure);
     } catch (const InputError& error) {
-      Raise(input_error, error.what());
+      Raise(input_error, WithArguments(error.what()).c_str());
     } catch (const BugError& error) {
       Raise(bug_error, error.what());
     }

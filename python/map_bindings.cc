@@ -6,18 +6,19 @@
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/line_map.h"
 
+#include "apps/command_outputs.h"
 #include "bindings.h"
 #include "interruptible.h"
 #include "iteration.h"
 #include "map_arrays.h"
 #include "map_export.h"
+#include "texts.h"
 #include "trajectories.h"
 #include <filesystem>
 #include <string>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 namespace plumbline::python {
 namespace {
@@ -28,6 +29,7 @@ PyAtlas LoadMaps(const std::filesystem::path& path) {
 }
 
 void SaveMaps(const PyAtlas& atlas, const std::filesystem::path& path) {
+  CheckOutput("path", path, {}, MapFileKind());
   const py::gil_scoped_release release;
   SaveAtlas(path, atlas.saved->atlas, atlas.saved->context);
 }
@@ -79,13 +81,50 @@ auto Frozen(const Make& make) {
   return [make](const PyMap& map) { return ReadOnly(make(map)); };
 }
 
+// What a map gives out but its arrays.
+void BindMapOutputs(py::class_<PyMap>& bound) {
+  bound
+      .def(
+          "keyframe_trajectory",
+          [](const PyMap& map) { return PoseList{KeyFrameTrajectoryOf(map)}; },
+          "keyframe_trajectory() -> Trajectory\n\nOf the left camera; of one time the oldest.")
+      .def("line_map", LineMapOf, R"(line_map() -> dict
+
+The lines fit to be given out (docs/methods/line-map.md), as the run had it: "segments" (N, 2, 3) in
+the world, "sigmas" (N,) of the worse end across, "keyframes" (N,) that show it. New arrays.)")
+      .def("export",
+           &ExportMap,
+           py::arg("path"),
+           py::arg("format"),
+           py::arg("images") = py::none(),
+           py::arg("frames") = "keyframes",
+           py::arg("trajectory") = py::none(),
+           R"(export(path, format, images=None, frames="keyframes", trajectory=None)
+
+Writes what `plumbline map export` writes: "ply", "obj", "dxf", "tum" (the keyframes), "colmap" or
+"nerfstudio" (new folders). images: the data that the map was made from, a Dataset or a path; they
+give ply, colmap and nerfstudio their images and colours. frames: "keyframes", "all" for all frames
+with a pose as well, or "every:N" for every N-th of these; their poses are trajectory, a Trajectory
+or a file (None: trajectory.txt beside the file of the map). Ctrl-C raises KeyboardInterrupt, and
+nothing is written. Raises InputError where anything else than an export of this form would be
+replaced.)")
+      .def("__repr__", [](const PyMap& map) {
+        return fmt::format("<Map {}: {} keyframes, {} points, {} lines>",
+                           map.map->id().value,
+                           map.map->keyframes().size(),
+                           map.map->points().size(),
+                           map.map->lines().size());
+      });
+}
+
 void BindMap(py::module_& module) {
-  py::class_<PyMap>(module, "Map", R"(Keyframes, points and lines of one connected world at one
+  py::class_<PyMap> bound(
+      module, "Map", R"(Keyframes, points and lines of one connected world at one
 moment. Nothing of it changes: its arrays are read-only copies.
 
 World: the left camera at the first keyframe; metres, or with one camera a unit of its own.
-Rows are in the order of the ids.)")
-      .def_property_readonly("id", [](const PyMap& map) { return map.map->id().value; })
+Rows are in the order of the ids.)");
+  bound.def_property_readonly("id", [](const PyMap& map) { return map.map->id().value; })
       .def_property_readonly("point_ids", Frozen(PointIds), "(N,) int64; a read-only copy.")
       .def_property_readonly("points", Frozen(Points), "(N, 3) in the world; a read-only copy.")
       .def_property_readonly("line_ids", Frozen(LineIds), "(N,) int64; a read-only copy.")
@@ -121,31 +160,8 @@ rectified, corrected image, sigma_px across. Ordered by line, then keyframe. A r
       .def_property_readonly(
           "camera",
           [](const PyMap& map) { return map.saved->context.camera; },
-          "The rectified camera that all features were measured with.")
-      .def(
-          "keyframe_trajectory",
-          [](const PyMap& map) { return PoseList{KeyFrameTrajectoryOf(map)}; },
-          "keyframe_trajectory() -> Trajectory\n\nOf the left camera; of one time the oldest.")
-      .def("line_map", LineMapOf, R"(line_map() -> dict
-
-The lines fit to be given out (docs/methods/line-map.md), as the run had it: "segments" (N, 2, 3) in
-the world, "sigmas" (N,) of the worse end across, "keyframes" (N,) that show it. New arrays.)")
-      .def("export",
-           &ExportMap,
-           py::arg("path"),
-           py::arg("format"),
-           py::call_guard<py::gil_scoped_release>(),
-           R"(export(path, format)
-
-Writes what `plumbline map export` writes without images: "ply", "obj", "dxf", "tum" (the
-keyframes), "colmap" (a new folder). Raises InputError for the file that the map was read from.)")
-      .def("__repr__", [](const PyMap& map) {
-        return fmt::format("<Map {}: {} keyframes, {} points, {} lines>",
-                           map.map->id().value,
-                           map.map->keyframes().size(),
-                           map.map->points().size(),
-                           map.map->lines().size());
-      });
+          "The rectified camera that all features were measured with.");
+  BindMapOutputs(bound);
 }
 
 }  // namespace
@@ -160,7 +176,10 @@ moment; nothing of it changes. len(), indices and iteration give Map.)")
       .def("__iter__", &IterateByIndex)
       .def_property_readonly(
           "active", ActiveMap, "The Map to go on with; None where there is none.")
-      .def("save", &SaveMaps, py::arg("path"), "save(path)\n\nWrites a map file (map.plb).")
+      .def("save", &SaveMaps, py::arg("path"), R"(save(path)
+
+Writes a map file (map.plb). Raises InputError where a result of a run, or anything else than a map,
+would be replaced.)")
       .def("__repr__", [](const PyAtlas& atlas) {
         return fmt::format("<Atlas of {} maps>", atlas.saved->atlas.maps().size());
       });

@@ -3,22 +3,19 @@
 #include "map_export.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/io/atomic_file.h"
-#include "plumbline/io/colmap_folder.h"
-#include "plumbline/io/colmap_model.h"
-#include "plumbline/io/dxf.h"
 #include "plumbline/io/keyframe_images.h"
 #include "plumbline/io/map_io.h"
-#include "plumbline/io/path_overlap.h"
-#include "plumbline/io/ply.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/map/keyframe_trajectory.h"
 #include "plumbline/slam/saved_options.h"
 
 #include "apps/command_line.h"
+#include "apps/command_outputs.h"
+#include "apps/exported_map.h"
 #include "bindings.h"
-#include <map>
+#include "interruptible.h"
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace plumbline::python {
@@ -26,63 +23,84 @@ namespace plumbline::python {
 namespace py = pybind11;
 namespace {
 
-enum class ExportFormat { kPly, kObj, kDxf, kTum, kColmap };
-constexpr auto EnumNames(std::type_identity<ExportFormat>) {
-  return std::array{std::pair{ExportFormat::kPly, "ply"},
-                    std::pair{ExportFormat::kObj, "obj"},
-                    std::pair{ExportFormat::kDxf, "dxf"},
-                    std::pair{ExportFormat::kTum, "tum"},
-                    std::pair{ExportFormat::kColmap, "colmap"}};
-}
-
 // A warning of Python, from code that does not hold the GIL.
 void Warn(const std::string& text) {
   const py::gil_scoped_acquire acquire;
   if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
 }
 
-std::vector<Segment3> LinesOf(const PyMap& map) { return SegmentsOf(MappedLinesOf(map, {})); }
+SlamOptions OptionsOf(const PyMap& map) {
+  return SavedOptionsOrDefault(
+      map.saved->context, "options of the map", "lines as by default", Warn);
+}
 
-void WriteColmap(const PyMap& map, const std::filesystem::path& path) {
-  const SavedMap saved = SavedMapOf(*map.map, map.saved->context, map.saved->file_version);
-  const std::map<KeyFrameId, std::string> names = KeyFrameImageNames(saved.map);
-  AtomicFolder folder(path);
-  WriteColmapFolder(folder.temporary_path(), saved.map, MakeColmapModel(saved, names), names);
-  folder.Commit();
+KeyFrameImages ImagesOf(const ImageSource& source, const SavedMap& saved) {
+  if (const auto* path = std::get_if<std::filesystem::path>(&source)) {
+    return KeyFrameImages(*path, {}, saved);
+  }
+  return KeyFrameImages(std::get<std::shared_ptr<Dataset>>(source), saved);
+}
+
+// The poses of the frames of the run, and what messages call them.
+std::pair<std::string, Trajectory> FramePosesOf(const PyMap& map,
+                                                const std::optional<PoseSource>& source) {
+  if (source && std::holds_alternative<PoseList>(*source)) {
+    return {"trajectory", std::get<PoseList>(*source).poses};
+  }
+  if (!source && map.file.empty()) {
+    throw InputError(
+        "frames: expected trajectory as well, the poses of the run's frames, found none beside a "
+        "map that is of no file");
+  }
+  const std::filesystem::path file =
+      source ? std::get<std::filesystem::path>(*source) : TrajectoryBeside(map.file, map.map->id());
+  return {file.string(), ReadTrajectory(file).poses};
 }
 
 }  // namespace
 
 std::vector<MappedLine> MappedLinesOf(const PyMap& map, const StopCheck& stop) {
   const AtlasContext& context = map.saved->context;
-  const SlamOptions options =
-      SavedOptionsOrDefault(context, "options of the map", "lines as by default", Warn);
   return MakeLineMap(
-      *map.map, {context.camera, context.octave_scale}, options.mapping.line_map, stop);
+      *map.map, {context.camera, context.octave_scale}, OptionsOf(map).mapping.line_map, stop);
 }
 
 Trajectory KeyFrameTrajectoryOf(const PyMap& map) {
   return KeyFrameTrajectory(*map.map, map.saved->context.rectified_from_left);
 }
 
-void ExportMap(const PyMap& map, const std::filesystem::path& path, const std::string& format) {
-  const auto chosen = ParseChoice<ExportFormat>("format", format);
-  if (!map.file.empty() && IsSamePath(path, map.file)) {
-    throw InputError(path.string() +
-                     ": expected another file than the one that the map was read from");
+void ExportMap(const PyMap& map,
+               const std::filesystem::path& path,
+               const std::string& format,
+               const std::optional<ImageSource>& images,
+               const std::string& frames,
+               const std::optional<PoseSource>& trajectory) {
+  MapExport wanted;
+  wanted.format = ParseChoice<ExportFormat>("format", format);
+  wanted.out = path;
+  const int every = ParseExportedFrames(frames);
+  CheckExport(wanted.format, images.has_value(), every);
+  if (trajectory && every == 0) {
+    throw InputError("trajectory: goes with frames=\"all\" and frames=\"every:N\" only");
   }
-  switch (chosen) {
-    case ExportFormat::kPly:
-      return WritePly(path, PointPositions(*map.map), LinesOf(map));
-    case ExportFormat::kObj:
-      return WriteObjLines(path, LinesOf(map));
-    case ExportFormat::kDxf:
-      return WriteDxfLines(path, LinesOf(map));
-    case ExportFormat::kTum:
-      return WriteTum(path, KeyFrameTrajectoryOf(map));
-    case ExportFormat::kColmap:
-      return WriteColmap(map, path);
-  }
+  std::vector<std::filesystem::path> read;
+  if (!map.file.empty()) read.push_back(map.file);
+  CheckOutput("path", path, read, KindOfExport(wanted.format));
+  wanted.imaging = {map.saved->context.camera, map.saved->context.octave_scale};
+  wanted.line_map = OptionsOf(map).mapping.line_map;
+  RunInterruptibly([&](const StopCheck& stop) {
+    const SavedMap saved = SavedMapOf(*map.map, map.saved->context, map.saved->file_version);
+    if (every > 0) {
+      const auto [source, poses] = FramePosesOf(map, trajectory);
+      wanted.others = FramesBetween(saved, source, poses, every);
+    }
+    std::optional<KeyFrameImages> opened;
+    if (images) {
+      opened.emplace(ImagesOf(*images, saved));
+      wanted.images = &*opened;
+    }
+    plumbline::ExportMap(saved, wanted, stop);
+  });
 }
 
 }  // namespace plumbline::python

@@ -4,11 +4,16 @@
 
 #include "plumbline/base/stop_check.h"
 #include "plumbline/geometry/trajectory.h"
+#include "plumbline/io/dataset.h"
 #include "plumbline/mapping/line_map.h"
 
 #include "maps.h"
+#include "trajectories.h"
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace plumbline::python {
@@ -20,8 +25,18 @@ std::vector<MappedLine> MappedLinesOf(const PyMap& map, const StopCheck& stop);
 // KeyFrameTrajectory of a map.
 Trajectory KeyFrameTrajectoryOf(const PyMap& map);
 
-// Writes a map as `plumbline map export --to FORMAT` without images does: ply, obj, dxf, tum,
-// colmap. Throws InputError for the file that it was read from.
-void ExportMap(const PyMap& map, const std::filesystem::path& path, const std::string& format);
+// The data that a map was made from: open, or where they are.
+using ImageSource = std::variant<std::shared_ptr<Dataset>, std::filesystem::path>;
+// Poses of frames, or the file that has them.
+using PoseSource = std::variant<PoseList, std::filesystem::path>;
+
+// Writes a map as `plumbline map export --to FORMAT` does, with the same checks. Holds the lock of
+// the interpreter.
+void ExportMap(const PyMap& map,
+               const std::filesystem::path& path,
+               const std::string& format,
+               const std::optional<ImageSource>& images,
+               const std::string& frames,
+               const std::optional<PoseSource>& trajectory);
 
 }  // namespace plumbline::python

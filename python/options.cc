@@ -9,9 +9,12 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "texts.h"
 #include <string>
+#include <utility>
 #include <variant>
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 namespace plumbline::python {
@@ -28,7 +31,7 @@ std::string TextOf(const std::string& key, py::handle value) {
     return TextOf(key, value.attr("item")());
   }
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
-  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+  if (py::isinstance<py::str>(value)) return ReadText(value, key);
   if (py::isinstance<py::int_>(value)) return py::str(value).cast<std::string>();
   if (py::isinstance<py::float_>(value)) return py::repr(value).cast<std::string>();
   throw InputError(key + ": expected a number, True, False, a text or a dictionary, found " +
@@ -41,7 +44,7 @@ void SetAll(const py::dict& options, const std::string& prefix, int depth, Optio
       throw InputError((prefix.empty() ? "options" : prefix) +
                        ": expected names of options, found " + Describe(name));
     }
-    const std::string key = prefix + name.cast<std::string>();
+    const std::string key = prefix + ReadText(name, prefix.empty() ? "options" : prefix);
     if (py::isinstance<py::dict>(value)) {
       if (depth == kDeepest) {
         throw InputError(key + ": expected at most " + std::to_string(kDeepest) +
@@ -73,9 +76,16 @@ py::dict GroupOf(py::dict values, const std::string& key) {
   return values;
 }
 
-py::dict OptionsOfRun(const py::kwargs& given) {
-  SlamOptions options = ReadSlamOptions(given);
+py::dict OptionsOfRun(const RunArguments& arguments, const py::kwargs& given) {
+  SlamOptions options = ReadRunOptions(arguments, given);
   return ValuesOf(OptionTable(options));
+}
+
+// Whether an option of the group slam is given by its dotted key or in a dictionary.
+bool IsGiven(const py::dict& given, const char* name) {
+  if (given.contains("slam." + std::string(name))) return true;
+  return given.contains("slam") && py::isinstance<py::dict>(given["slam"]) &&
+         given["slam"].contains(name);
 }
 
 std::string HelpOfOptions() {
@@ -87,25 +97,6 @@ std::string HelpOfOptions() {
 
 void SetInTable(const py::dict& given, OptionTable& table) { SetAll(given, "", 0, table); }
 
-SlamOptions ReadSlamOptions(const py::kwargs& given) {
-  SlamOptions options;
-  OptionTable table(options);
-  py::dict others;
-  for (const auto& [name, value] : given) others[name] = value;
-  if (others.contains("preset")) {
-    const py::object preset = others.attr("pop")("preset");
-    if (!preset.is_none()) {
-      if (!py::isinstance<py::str>(preset)) {
-        throw InputError("preset: expected a name, found " + Describe(preset));
-      }
-      LoadPreset(preset.cast<std::string>(), table);
-    }
-  }
-  SetInTable(others, table);
-  CheckOptions(options);
-  return options;
-}
-
 py::dict ValuesOf(const OptionTable& table) {
   py::dict values;
   for (const OptionField& field : table.fields()) {
@@ -115,15 +106,46 @@ py::dict ValuesOf(const OptionTable& table) {
   return values;
 }
 
+SlamOptions ReadRunOptions(const RunArguments& arguments, const py::dict& given) {
+  SlamOptions options;
+  OptionTable table(options);
+  if (!arguments.preset.is_none()) {
+    if (!py::isinstance<py::str>(arguments.preset)) {
+      throw InputError("preset: expected a name, found " + Describe(arguments.preset));
+    }
+    LoadPreset(arguments.preset.cast<std::string>(), table);
+  }
+  py::dict all = given.attr("copy")();
+  for (const auto& [name, value] : {std::pair{"seed", arguments.seed}, {"mode", arguments.mode}}) {
+    if (value.is_none()) continue;
+    if (IsGiven(given, name)) {
+      throw InputError(fmt::format("{0}: expected it once, found slam.{0} as well", name));
+    }
+    all[py::str("slam." + std::string(name))] = value;
+  }
+  SetInTable(all, table);
+  CheckOptions(options);
+  return options;
+}
+
 void BindOptions(py::module_& module) {
-  module.def("options",
-             OptionsOfRun,
-             R"(options(**options) -> dict
+  module.def(
+      "options",
+      [](const py::object& seed,
+         const py::object& mode,
+         const py::object& preset,
+         const py::kwargs& given) {
+        return OptionsOfRun({preset, seed, mode}, given);
+      },
+      py::arg("seed") = py::none(),
+      py::arg("mode") = py::none(),
+      py::arg("preset") = py::none(),
+      R"(options(seed=None, mode=None, preset=None, **options) -> dict
 
 All options of a run in groups, as `System` and `run` take them:
-options()["features"]["line_count"]. Options that are given are checked and take the place
-of the defaults; preset="rippl" or "good-line-cutting" takes those of a paper first. Raises
-InputError with the program's message.)");
+options()["features"]["line_count"]. preset="rippl" or "good-line-cutting" takes the options of a paper first; seed
+and mode are slam.seed and slam.mode. Options that are given are checked and take the place of the
+defaults. Raises InputError with the program's message.)");
   module.def(
       "_preset_sensor",
       [](const std::string& name) { return FindPreset(name).needs_stereo ? "stereo" : "mono"; },

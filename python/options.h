@@ -18,9 +18,15 @@ void SetOptions(const pybind11::dict& given, T& options) {
   SetInTable(given, table);
 }
 
-// Returns the options of a run: those of the argument `preset`, where it is given, and then the
-// others. Throws InputError as SetInTable, FindPreset and CheckOptions do.
-SlamOptions ReadSlamOptions(const pybind11::kwargs& given);
+// Arguments of a run that stand beside the groups of options; each may be None.
+struct RunArguments {
+  pybind11::object preset;      // the name of a preset, whose options are set first
+  pybind11::object seed, mode;  // slam.seed and slam.mode, which must not be given twice
+};
+
+// Returns the options of a run, checked. Throws InputError as SetInTable, FindPreset and
+// CheckOptions do.
+SlamOptions ReadRunOptions(const RunArguments& arguments, const pybind11::dict& given);
 
 // The values of all options, in groups.
 pybind11::dict ValuesOf(const OptionTable& table);

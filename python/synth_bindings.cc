@@ -15,6 +15,7 @@
 #include "interruptible.h"
 #include "iteration.h"
 #include "options.h"
+#include "texts.h"
 #include "trajectories.h"
 #include <algorithm>
 #include <array>
@@ -25,7 +26,6 @@
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 namespace plumbline::python {
 namespace {
@@ -116,6 +116,10 @@ and lines. len(), indices and iteration give Frame.)")
 A world of worlds(). options: those of `plumbline synth`, such as frames=10, scale=0.5, seed=2.
 Raises InputError with the program's message.)")
       .def("__len__", &SyntheticSequence::size)
+      .def("__repr__",
+           [](const SyntheticSequence& s) {
+             return fmt::format("<Synth {}: {} frames>", s.world(), s.size());
+           })
       .def("__iter__", &IterateByIndex)
       .def("__getitem__", &RenderFrame, py::arg("index"), "The frame, rendered now, with depth.")
       .def_property_readonly("calibration", &SyntheticSequence::calibration)

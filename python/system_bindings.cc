@@ -14,6 +14,7 @@
 #include "options.h"
 #include "running_system.h"
 #include "sensor_kind.h"
+#include "texts.h"
 #include "trajectories.h"
 #include <algorithm>
 #include <filesystem>
@@ -24,13 +25,16 @@
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 namespace plumbline::python {
 namespace {
 
-std::unique_ptr<RunningSystem> MakeSystem(const Calibration& calibration, const py::kwargs& given) {
-  const SlamOptions options = ReadSlamOptions(given);
+std::unique_ptr<RunningSystem> MakeSystem(const Calibration& calibration,
+                                          const py::object& seed,
+                                          const py::object& mode,
+                                          const py::object& preset,
+                                          const py::kwargs& given) {
+  const SlamOptions options = ReadRunOptions({preset, seed, mode}, given);
   const py::gil_scoped_release release;
   return std::make_unique<RunningSystem>(calibration, options);
 }
@@ -106,16 +110,36 @@ std::vector<std::string> ContinueIn(RunningSystem& system, const PyAtlas& atlas,
   return system.Continue(*atlas.saved, read_only);
 }
 
+void CheckMapId(const System& finished, const std::optional<std::int64_t>& map) {
+  if (!map || finished.maps().contains(MapId{*map})) return;
+  throw InputError(fmt::format("map: expected the id of a map, found {}", *map));
+}
+
 using TrajectoryOf = Trajectory (System::*)(MapId) const;
 
 template <TrajectoryOf of>
 PoseList TrajectoryIn(RunningSystem& system, const std::optional<std::int64_t>& map) {
   return system.WithFinished("trajectory", [&](const System& finished) {
-    if (map && !finished.maps().contains(MapId{*map})) {
-      throw InputError(fmt::format("map: expected the id of a map, found {}", *map));
-    }
+    CheckMapId(finished, map);
     const auto id = map ? MapId{*map} : finished.MainMap();
     return PoseList{id ? (finished.*of)(*id) : Trajectory()};
+  });
+}
+
+py::tuple CovariancesIn(RunningSystem& system, const std::optional<std::int64_t>& map) {
+  return system.WithFinished("causal_covariances", [&](const System& finished) {
+    CheckMapId(finished, map);
+    const auto id = map ? MapId{*map} : finished.MainMap();
+    std::vector<StampedCovariance> known;
+    if (id) known = finished.CausalCovariances(*id);
+    std::vector<std::int64_t> stamps;
+    Doubles covariances({static_cast<py::ssize_t>(known.size()), py::ssize_t{6}, py::ssize_t{6}});
+    double* out = covariances.mutable_data();
+    for (const StampedCovariance& pose : known) {
+      stamps.push_back(pose.stamp_ns);
+      out = std::copy_n(pose.covariance.data(), pose.covariance.size(), out);  // symmetric
+    }
+    return py::make_tuple(ToArray(stamps), covariances);
   });
 }
 
@@ -189,11 +213,11 @@ py::list NewEventsOf(RunningSystem& system) {
 }
 
 // The files of `plumbline run --out`, but for what a program alone can tell (exit by a signal).
-std::string WriteRun(RunningSystem& system,
-                     RunFolder& folder,
-                     const std::shared_ptr<Dataset>& dataset,
-                     std::size_t frames_chosen,
-                     const std::vector<std::string>& arguments) {
+std::filesystem::path WriteRun(RunningSystem& system,
+                               RunFolder& folder,
+                               const std::shared_ptr<Dataset>& dataset,
+                               std::size_t frames_chosen,
+                               const std::vector<std::string>& arguments) {
   const py::gil_scoped_release release;
   SlamOptions options = system.options();
   folder.Keep();
@@ -213,7 +237,7 @@ std::string WriteRun(RunningSystem& system,
                         folder);
   });
   if (written.failure) throw InputError(*written.failure);
-  return folder.path().string();
+  return folder.path();
 }
 
 std::unique_ptr<RunFolder> OpenFolder(const std::filesystem::path& folder,
@@ -251,6 +275,16 @@ void BindRecord(py::module_& module) {
             return ToArray(*r.causal_world_from_camera);
           },
           "(4, 4) of the left camera as delivered, as first reported, or None; a new array.")
+      .def_property_readonly(
+          "covariance",
+          [](const FrameRecord& r) -> py::object {
+            if (!r.causal_covariance) return py::none();
+            return ToArray(*r.causal_covariance);
+          },
+          "(6, 6) of world_from_camera relative to the map, of x, y, z and the rotation about x, "
+          "y, z "
+          "along the axes of the world, metres (with one camera: the map's unit) and radians; None "
+          "where there is no pose, or it starts a map; a new array.")
       .def_property_readonly("matched_points",
                              [](const FrameRecord& r) { return r.counts.matched_points; })
       .def_property_readonly("matched_lines",
@@ -278,9 +312,16 @@ void BindRecord(py::module_& module) {
 
 void BindFeeding(py::class_<RunningSystem>& system) {
   system
-      .def(py::init(&MakeSystem), py::arg("calibration"), R"(System(calibration, **options)
+      .def(py::init(&MakeSystem),
+           py::arg("calibration"),
+           py::arg("seed") = py::none(),
+           py::arg("mode") = py::none(),
+           py::arg("preset") = py::none(),
+           R"(System(calibration, seed=None, mode=None, preset=None, **options)
 
-options: groups as dictionaries, features={"line_count": 100}, slam={"seed": 3}, or dotted keys,
+seed: of the random numbers; mode: "inline", "lockstep" or "live" (slam.seed and slam.mode). preset:
+the system of a paper, "rippl" or "good-line-cutting", to which options are added.
+options: groups as dictionaries, features={"line_count": 100}, or dotted keys,
 **{"features.line_count": 100}. Raises InputError with the program's message.)")
       .def("process",
            &Process,
@@ -396,9 +437,23 @@ void BindSystem(py::module_& module) {
       module, "System", R"(The whole of SLAM for one camera: feed frames
 in order, then finish(). Poses are world_from_camera of the left camera as delivered; the world is
 that camera at the first keyframe of each map. One thread at a time; several systems may run in
-several threads.)");
+several threads. With the modes lockstep (the default) and live it has threads, which fork() does
+not copy: in a forked child it never answers. Make systems in the child, or use processes that
+start anew (multiprocessing's "spawn").)");
   BindFeeding(system);
   BindResults(system);
+  system.def("causal_covariances",
+             &CovariancesIn,
+             py::arg("map") = py::none(),
+             R"(causal_covariances(map=None) -> (numpy.ndarray, numpy.ndarray)
+
+After finish(): stamps (N,) in nanoseconds and covariances (N, 6, 6) of the poses of
+causal_trajectory(), as FrameResult.covariance; those that start a map have none. New arrays.)");
+  system.def("__repr__", [](const RunningSystem& running) {
+    return fmt::format("<System, {}, {}>",
+                       NameOf(KindOf(running.calibration())),
+                       running.finished() ? "finished" : "runs");
+  });
   system.def("_keep_views", &RunningSystem::KeepViews);
   py::class_<RunFolder>(module, "_RunFolder").def(py::init(&OpenFolder));
   module.def("_write_run", &WriteRun);

@@ -5,12 +5,15 @@
 #include "plumbline/base/error.h"
 #include "plumbline/eval/trajectory_error.h"
 #include "plumbline/geometry/alignment.h"
+#include "plumbline/geometry/unit_rotation.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/io/trajectory_io.h"
 
 #include "apps/command_line.h"
+#include "apps/command_outputs.h"
 #include "arrays.h"
 #include "bindings.h"
+#include "texts.h"
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +23,6 @@
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 namespace plumbline::python {
 namespace {
@@ -61,7 +63,7 @@ Trajectory MakeTrajectory(py::handle stamps_ns, py::handle positions, py::handle
     const auto row = static_cast<py::ssize_t>(i);
     Eigen::Quaterniond q;
     q.coeffs() = Eigen::Map<const Eigen::Vector4d>(turns.data(row));
-    if (std::abs(q.norm() - 1) > 0.01) {
+    if (!IsRotation(q)) {
       throw InputError(
           fmt::format("quaternions: expected a norm of 1, found {:.3g} at [{}]", q.norm(), i));
     }
@@ -119,6 +121,9 @@ py::dict StatisticsDict(const ErrorStatistics& errors) {
   dict["mean"] = errors.mean;
   dict["median"] = errors.median;
   dict["max"] = errors.max;
+  dict["std"] = errors.deviation;
+  dict["p75"] = errors.p75;
+  dict["p95"] = errors.p95;
   return dict;
 }
 
@@ -202,8 +207,8 @@ reference is interpolated at the time of each pose, over gaps of at most max_gap
 or its pose nearest in time, at most 20 ms away, is taken ("nearest"). window_s: seconds between the
 two poses of a pair of rpe and roe. Raises InputError where no pose has a reference.
 
-"ate" [m], "rpe" [m/s], "roe" [rad/s]: dictionaries of count, rmse, mean, median, max (None where
-nothing spans the window); "scale", "scale_drift"; "reference_from_estimate" (4, 4);
+"ate" [m], "rpe" [m/s], "roe" [rad/s]: dictionaries of count, rmse, mean, median, max, std
+(standard deviation), p75 and p95 (percentiles), None where nothing spans the window; "scale", "scale_drift"; "reference_from_estimate" (4, 4);
 "degenerate": positions do not determine the alignment; "stamps_ns" (N,),
 "position_errors" (N,) [m], "rotation_errors" (N,) [rad] of the poses that were compared.
 All arrays are new.)");
@@ -240,15 +245,27 @@ world_from_camera. Stamps until the year 2096 and places within 10^9 m, as load 
       .def(
           "save",
           [](const PoseList& list, const std::filesystem::path& path) {
+            CheckOutput("path", path, {}, TrajectoryFileKind());
             WriteTum(path, list.poses);
           },
           py::arg("path"),
-          "save(path)\n\nWrites the form of TUM, the bytes of `plumbline run`.")
+          R"(save(path)
+
+Writes the form of TUM, the bytes of `plumbline run`. Raises InputError where a result of a run, or
+anything else than such a file, would be replaced.)")
       .def(
           "to_tum",
           [](const PoseList& list) { return FormatTum(list.poses); },
           "to_tum() -> str\n\nThe text that save writes.")
       .def("__len__", [](const PoseList& list) { return list.poses.size(); })
+      .def("__repr__",
+           [](const PoseList& list) {
+             if (list.poses.empty()) return std::string("<Trajectory of 0 poses>");
+             return fmt::format("<Trajectory of {} poses, {} to {} s>",
+                                list.poses.size(),
+                                FormatStamp(list.poses.front().stamp_ns),
+                                FormatStamp(list.poses.back().stamp_ns));
+           })
       .def_property_readonly("stamps_ns", StampsOf, "(N,) int64, nanoseconds; a new array.")
       .def_property_readonly("poses", PosesOf, "(N, 4, 4) world_from_camera; a new array.")
       .def_property_readonly("positions", PositionsOf, "(N, 3) camera centres; a new array.")

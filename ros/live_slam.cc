@@ -202,6 +202,7 @@ void LiveSlam::Implementation::Observe(const FrameRecord& record, bool corrected
   outcome.skipped = record.status == FrameStatus::kSkipped;
   outcome.state = NameOf(record.status);
   outcome.world_from_camera = record.causal_world_from_camera;
+  outcome.covariance = record.causal_covariance;
   outcome.map = record.map.valid() ? record.map.value : -1;
   outcome.corrected = corrected;
   observer_(outcome);

@@ -57,6 +57,9 @@ struct FrameOutcome {
   bool skipped = false;       // it was left out, for want of time
   std::string state;          // initializing, tracked, lost, skipped
   std::optional<Rigid3> world_from_camera;
+  // Of world_from_camera, relative to the map, along its axes: x, y, z, rotation about x, y, z. Not
+  // set where it is not known.
+  std::optional<Matrix6d> covariance;
   std::int64_t map = -1;   // in which the pose is
   bool corrected = false;  // the map was corrected at large since the frame before
 };

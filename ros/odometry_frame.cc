@@ -2,7 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "odometry_frame.h"
 
+#include "plumbline/geometry/covariance.h"
+
 namespace plumbline::ros_node {
+
+Matrix6d BaseCovariance(const BasePose& pose,
+                        const Rigid3& base_from_camera,
+                        const Rigid3& world_from_camera,
+                        const Matrix6d& of_camera) {
+  // The axes of the map are those of the world as the base stands in it (PosePublisher::Publish).
+  const Eigen::Quaterniond odom_from_world =
+      pose.MapFromOdom().rotation.conjugate() * base_from_camera.rotation;
+  const Eigen::Vector3d lever = world_from_camera.rotation * Inverse(base_from_camera).translation;
+  return MovedPoseCovariance(of_camera, odom_from_world, lever);
+}
 
 const BasePose& OdometryFrame::Next(std::int64_t stamp_ns,
                                     std::int64_t map,

@@ -20,6 +20,17 @@ struct BasePose {
   Rigid3 MapFromOdom() const { return map_from_base * Inverse(odom_from_base); }
 };
 
+// Returns the covariance of the base relative to the map, as nav_msgs/Odometry has it: of x, y, z
+// and the rotation about x, y, z, along the axes of `odom`.
+//
+//   pose         of the base
+//   of_camera    of the camera relative to the map, along the axes of the world in which
+//                world_from_camera is
+Matrix6d BaseCovariance(const BasePose& pose,
+                        const Rigid3& base_from_camera,
+                        const Rigid3& world_from_camera,
+                        const Matrix6d& of_camera);
+
 // Follows the motion of a robot from its poses in maps that are corrected now and then.
 //
 // Between two poses in one map the robot moves in `odom` as it does in the map. Where the map was

@@ -3,6 +3,7 @@
 #include "pose_publisher.h"
 
 #include "frames.h"
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -87,7 +88,13 @@ void PosePublisher::Publish(const FrameOutcome& frame,
   message.header.frame_id = parameters_.map_frame;
   message.pose = ToPose(pose.map_from_base);
   pose_.publish(message);
-  odometry_publisher_.publish(OdometryOf(pose, parameters_, stamp));
+  nav_msgs::Odometry odometry = OdometryOf(pose, parameters_, stamp);
+  if (frame.covariance) {
+    const Matrix6d covariance =
+        BaseCovariance(pose, base_from_camera, *frame.world_from_camera, *frame.covariance);
+    std::copy_n(covariance.data(), covariance.size(), odometry.pose.covariance.begin());
+  }
+  odometry_publisher_.publish(odometry);
   if (parameters_.publish_tf) PublishTransforms(pose, stamp);
 }
 

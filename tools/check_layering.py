@@ -36,7 +36,7 @@ LAYERS = {
     "io": ["base", "geometry", "image", "features", "map", "recording"],
     "live": ["base", "geometry", "image", "io"],
     "eval": ["base", "geometry"],
-    "report": ["base", "geometry", "image", "features", "map", "io", "slam", "eval"],
+    "report": ["base", "geometry", "image", "features", "map", "initialization", "io", "slam", "eval"],
     "view": ["base", "geometry", "image", "features", "map", "slam", "recording", "foxglove"],
     "worlds": ["base", "geometry", "image", "io"],
     "line_rivals": ["base", "geometry", "map", "association", "optimization", "tracking"],
@@ -69,11 +69,16 @@ THIRD_PARTY = {
     "opencv2/": r"image/(opencv_bridge|opencv_modules|image_codecs)\.h|"
                 r"(image|features|initialization|io|live|report|view)/\w+\.cc",
     "yaml-cpp/": r"((base|io)/\w+|lab/experiments/(printed_figures|gate))\.cc",
+    "libavcodec/": r"image/video_decoder_library\.cc",
+    "libavformat/": r"image/video_decoder_library\.cc",
+    "libavutil/": r"image/video_decoder_library\.cc",
+    "libswscale/": r"image/video_decoder_library\.cc",
     "spng.h": r"image/image_codecs\.cc",
     "turbojpeg.h": r"image/image_codecs\.cc",
     "webp/": r"image/image_codecs\.cc",
     "bzlib.h": r"recording/compression\.cc",
     "lz4": r"recording/compression\.cc",
+    "sqlite3.h": r"recording/sqlite_bag\.cc",
     "zstd.h": r"(io/section_file|recording/(compression|mcap_file_writer))\.cc",
 }
 # Headers of the library that bring a heavy third-party header along: for .cc files only.

@@ -96,7 +96,8 @@ const KeyFrame& ChooseKeyFrame(const Map& map) {
 std::string CutLinePlot(const Plan& plan, const Job& job) {
   const SavedMap saved = LoadMap(job.folder / "map.plb");
   const KeyFrame& keyframe = ChooseKeyFrame(saved.map);
-  const GrayImage image = KeyFrameImages(plan.SequenceOf(job).path, {}, saved).Read(keyframe);
+  const GrayImage image =
+      ToGray(KeyFrameImages(plan.SequenceOf(job).path, {}, saved).Read(keyframe));
   const std::string png = EncodeOverlayPng(image, DrawCuts(CollectLines(saved, keyframe)));
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "

@@ -75,6 +75,13 @@ std::string WhyFailed(const Plan& plan,
   return job.computed ? "no results.json" : "no summary.json";
 }
 
+// Whether a program ended well, or found no pose in the whole sequence, which is a result.
+bool HasResult(const Plan& plan, const Job& job, const TaskEnd& end) {
+  if (!end.trouble.empty() || end.signal) return false;
+  return end.code == 0 ||
+         (end.code == 1 && LastWords(plan, job).starts_with("no frame has a pose"));
+}
+
 // Whether it may go well another time.
 bool IsWorthAnotherTry(const TaskEnd& end) {
   constexpr int kBadInput = 2;
@@ -255,8 +262,7 @@ class Runner {
     const Item item = running_.at(id);
     running_.erase(id);
     const Job& job = JobOf(item);
-    const bool well = end.trouble.empty() && end.code == 0 && !end.signal;
-    auto figures = well ? ReadResult(job) : std::nullopt;
+    auto figures = HasResult(PlanOf(item), job, end) ? ReadResult(job) : std::nullopt;
     JobResult& result = results_[item.plan][item.job];
     if (figures) {
       MarkDone(job);

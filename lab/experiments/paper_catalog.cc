@@ -12,7 +12,8 @@ namespace {
 const std::string kTum = "https://cvg.cit.tum.de/data/datasets/rgbd-dataset/download";
 const std::string kEuroc = "https://projects.asl.ethz.ch/datasets/euroc-mav/";
 const std::string kNoLoops = "loop.enabled=false";
-const std::vector<std::string> kMono = {"--sensor", "mono"};
+const std::vector<std::string> kRippl = {"--preset", "rippl"};
+const std::vector<std::string> kCutting = {"--preset", "good-line-cutting"};
 
 SequenceChoice Tum(const std::string& folder, const std::string& paper) {
   return {"tum/rgbd_dataset_" + folder, {}, "", {}, paper, kTum};
@@ -42,9 +43,10 @@ void AppendShort(std::vector<SequenceChoice>& choices, std::initializer_list<con
   for (const char* world : worlds) choices.push_back({world, {"frames=100"}, "short"});
 }
 
-// One of the first paper's initial maps: by factorization of m frames, or of two views.
+// One of the first paper's initial maps: by factorization of m frames (rank1_pairwise), or of two
+// views (two_view).
 std::vector<std::string> StartSettings(const char* method) {
-  return {kNoLoops, std::string("initialization.method=") + method};
+  return {std::string("initialization.method=") + method};
 }
 
 std::vector<std::string> With(std::vector<std::string> settings,
@@ -76,11 +78,11 @@ Experiment RipplTable1() {
   const auto settings = [](const char* method) {
     return With(StartSettings(method), {"features.lines=false", "features.point_count=2000"});
   };
-  Experiment e = RipplTable(
-      RipplSequences(true),
-      "worlds/forward",
-      {{"proposed", settings("rank1"), kMono}, {"conventional", settings("two_view"), kMono}},
-      "keyframes");
+  Experiment e = RipplTable(RipplSequences(true),
+                            "worlds/forward",
+                            {{"proposed", settings("rank1_pairwise"), kRippl},
+                             {"conventional", settings("two_view"), kRippl}},
+                            "keyframes");
   e.name = "rippl-table1";
   e.help = "Lee and Hwang 2019, table 1: one camera, 2000 points, by the way the map begins";
   e.plots = {"ate", "rpe_pairs"};
@@ -91,20 +93,17 @@ Experiment RipplTable1() {
 // The three systems of table 2, each with all that makes it: RIPPL begins by factorization, the
 // others by two views; EPL has end points from creation to adjustment; PPL the other Jacobian.
 std::vector<Variant> RipplSystems() {
-  const auto few = [](std::vector<std::string> settings) {
-    return With(std::move(settings), {"features.point_count=500", "features.line_count=300"});
-  };
-  return {{"RIPPL", few(StartSettings("rank1")), kMono},
+  return {{"RIPPL", {}, kRippl},
           {"EPL",
-           With(few(StartSettings("two_view")),
+           With(StartSettings("two_view"),
                 {"lines.parametrization=endpoints",
                  "lines.residual=projected_ends",
                  "lines.reconstruction=two_view"}),
-           kMono},
+           kRippl},
           {"PPL",
-           With(few(StartSettings("two_view")),
+           With(StartSettings("two_view"),
                 {"lines.parametrization=plucker_left", "lines.reconstruction=two_view"}),
-           kMono}};
+           kRippl}};
 }
 
 Experiment RipplTable2() {
@@ -147,8 +146,14 @@ Experiment RipplFigure7() {
                  world("worlds/forward"),
                  world("worlds/planar"),
                  {"euroc/*"}};
-  e.variants = {{"proposed", {"initialization.method=rank1"}},
-                {"conventional", {"initialization.method=two_view"}}};
+  // `starts` makes no map beyond the first one: the settings of the preset that concern a start.
+  const std::vector<std::string> features = {"features.line_detector=lsd",
+                                             "features.point_count=2000"};
+  e.variants = {
+      {"proposed",
+       With(features,
+            {"initialization.method=rank1_pairwise", "initialization.min_line_angle_deg=5"})},
+      {"conventional", With(features, {"initialization.method=two_view"})}};
   e.metrics = {"starts",
                "possible",
                "success",
@@ -179,28 +184,28 @@ Experiment RipplFigure8() {
       "points in an image";
   e.sequences = RipplSequences(true);
   Append(e.sequences, {"euroc/*", "worlds/office", "worlds/planar"});
-  const std::vector<std::string> begin = {"--sensor", "mono", "--to", "100"};
+  const std::vector<std::string> begin = {"--preset", "rippl", "--to", "100"};
   const auto add = [&](const std::string& name,
                        std::vector<std::string> settings,
                        const std::string& curve,
                        int number) {
-    settings.insert(settings.end(), {kNoLoops, "features.lines=false"});
+    settings.emplace_back("features.lines=false");
     e.variants.push_back({name, std::move(settings), begin, curve, static_cast<double>(number)});
   };
   const std::string method = "initialization.method=";
   for (const int m : {3, 4, 5, 7, 10}) {
     const std::string number = std::to_string(m);
     add("m" + number,
-        {method + "rank1", "initialization.frames=" + number, "features.point_count=2000"},
+        {"initialization.frames=" + number, "features.point_count=2000"},
         "frames/proposed",
         m);
   }
   add("two_view", {method + "two_view", "features.point_count=2000"}, "frames/conventional", 2);
   for (const int points : {100, 200, 500, 1000, 2000}) {
     const std::string number = std::to_string(points), count = "features.point_count=" + number;
-    add("p" + number, {method + "rank1", count}, "points/proposed", points);
+    add("p" + number, {count}, "points/proposed", points);
     add("outliers_p" + number,
-        {method + "rank1", "initialization.reweighting=0", count},
+        {"initialization.pairwise.reject_outliers=false", count},
         "points/without outlier rejection",
         points);
     add("two_view_p" + number, {method + "two_view", count}, "points/conventional", points);
@@ -253,17 +258,13 @@ Experiment RipplTimingSystem() {
 
 // Of the second paper: against the last frame, with the residuals and weights of its program.
 std::vector<Variant> CuttingSystems() {
-  const std::vector<std::string> odometry = {kNoLoops,
-                                             "tracking.reference=last_frame",
-                                             "lines.residual=projected_ends",
-                                             "lines.weighting=none"};
-  const char *no_points = "features.points=false", *cut = "cutting.method=greedy";
-  return {{"L", With(odometry, {no_points})},
-          {"L+Cut", With(odometry, {no_points, cut})},
-          {"PL", odometry},
-          {"PL+Cut", With(odometry, {cut})},
-          {"P", With(odometry, {"features.lines=false"})},
-          {"PL_weighted", With(odometry, {"lines.weighting=covariance"})}};
+  const char *no_points = "features.points=false", *whole = "cutting.method=none";
+  return {{"L", {no_points, whole}, kCutting},
+          {"L+Cut", {no_points}, kCutting},
+          {"PL", {whole}, kCutting},
+          {"PL+Cut", {}, kCutting},
+          {"P", {"features.lines=false", whole}, kCutting},
+          {"PL_weighted", {whole, "lines.weighting=covariance"}, kCutting}};
 }
 
 const std::vector<std::string> kCuttingMetrics = {
@@ -374,7 +375,7 @@ Experiment GateExperiment() {
          {"euroc/MH_01_easy_first250",
           "tum/rgbd_dataset_freiburg1_floor_first90",
           "kitti/06_first51"});
-  e.variants = {{"both", {}}, {"mono", {}, kMono}};
+  e.variants = {{"both", {}}, {"mono", {}, {"--sensor", "mono"}}};
   e.metrics = {
       "ate", "ate_causal", "rpe_causal_mean", "lost", "maps", "line_recall", "line_precision"};
   e.plots = {"ate"};

@@ -3,8 +3,8 @@
 #include "lab/line_rivals/rival_method.h"
 
 #include "lab/line_rivals/line_ends.h"
-#include "plumbline/tracking/projected_matches.h"
 #include "lab/line_rivals/rival_ba.h"
+#include "plumbline/tracking/projected_matches.h"
 
 #include <cstddef>
 #include <optional>

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/rotation_fit.h"
+#include "plumbline/geometry/unit_rotation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -121,10 +122,13 @@ void ApplyAlignment(TrajectoryError& result) {
   result.ate = *StatisticsOf(std::move(errors));
 }
 
-double MedianOf(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+// Returns the value below which a share of the sorted values lies.
+double QuantileOf(const std::vector<double>& sorted, double share) {
+  const double place = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  const double between = place - static_cast<double>(below);
+  return (1 - between) * sorted[below] + between * sorted[above];
 }
 
 // Returns index pairs into the associated poses that are a duration apart.
@@ -153,7 +157,8 @@ std::vector<std::pair<std::size_t, std::size_t>> PairsByRow(const std::vector<Ev
   for (std::size_t i = 1; i < estimate.size(); ++i) {
     spacing.push_back(static_cast<double>(estimate[i].stamp_ns - estimate[i - 1].stamp_ns));
   }
-  const double longest = kLongestShare * frames * MedianOf(std::move(spacing));
+  std::sort(spacing.begin(), spacing.end());
+  const double longest = kLongestShare * frames * QuantileOf(spacing, 0.5);
   std::size_t b = 0;
   for (std::size_t a = 0; a < poses.size(); ++a) {
     const std::size_t row = poses[a].row + static_cast<std::size_t>(frames);
@@ -203,19 +208,32 @@ std::optional<ErrorStatistics> StatisticsOf(std::vector<double> errors) {
   }
   statistics.rmse = std::sqrt(squares / count);
   statistics.mean = sum / count;
-  statistics.median = MedianOf(std::move(errors));
+  for (const double error : errors) {
+    statistics.deviation += (error - statistics.mean) * (error - statistics.mean) / count;
+  }
+  statistics.deviation = std::sqrt(statistics.deviation);
+  std::sort(errors.begin(), errors.end());
+  statistics.median = QuantileOf(errors, 0.5);
+  statistics.p75 = QuantileOf(errors, 0.75);
+  statistics.p95 = QuantileOf(errors, 0.95);
   return statistics;
 }
 
-std::optional<TrajectoryError> CompareTrajectories(const Trajectory& reference,
-                                                   const Trajectory& estimate,
+std::optional<TrajectoryError> CompareTrajectories(const Trajectory& given_reference,
+                                                   const Trajectory& given_estimate,
                                                    const TrajectoryErrorOptions& options) {
   PLUMBLINE_CHECK(options.window.frames > 0 || options.window.duration_ns > 0, "empty window");
+  const Trajectory reference = WithUnitRotations(given_reference, "reference");
+  const Trajectory estimate = WithUnitRotations(given_estimate, "estimate");
   TrajectoryError result;
   result.estimated = estimate.size();
   result.poses = Associate(reference, estimate, options);
   if (result.poses.empty()) return std::nullopt;
-  Align(options.alignment, result);
+  if (options.known_alignment) {
+    result.reference_from_estimate = *options.known_alignment;
+  } else {
+    Align(options.alignment, result);
+  }
   ApplyAlignment(result);
   const bool has_scale = !result.degenerate || result.degenerate == AlignmentFailure::kCollinear;
   if (options.alignment == TrajectoryAlignment::kSim3 && has_scale) {
@@ -262,15 +280,17 @@ Similarity3 AlignPoses(std::span<const EvaluatedPose> poses) {
 }
 
 Trajectory OfCamera(const Trajectory& body, const Rigid3& body_from_camera) {
-  Trajectory camera = body;
+  Trajectory camera = WithUnitRotations(body, "body");
+  const Rigid3 mounting{UnitRotation(body_from_camera.rotation, "body_from_camera"),
+                        body_from_camera.translation};
   for (StampedPose& pose : camera) {
-    pose.world_from_camera = pose.world_from_camera * body_from_camera;
+    pose.world_from_camera = pose.world_from_camera * mounting;
   }
   return camera;
 }
 
 Trajectory MirroredY(const Trajectory& trajectory) {
-  Trajectory mirrored = trajectory;
+  Trajectory mirrored = WithUnitRotations(trajectory, "trajectory");
   for (StampedPose& pose : mirrored) {
     // M R M negates the entries of R with exactly one index y: the rotation axis keeps its y and
     // negates x and z.

@@ -49,6 +49,9 @@ struct RelativeWindow {
 // How CompareTrajectories aligns, associates and windows.
 struct TrajectoryErrorOptions {
   TrajectoryAlignment alignment = TrajectoryAlignment::kSe3;
+  // The alignment, where it is known from elsewhere: it is applied as it is, and `alignment` says
+  // what kind it is.
+  std::optional<Similarity3> known_alignment = {};
   TrajectoryAssociation association = TrajectoryAssociation::kInterpolate;
   // Largest gap between reference poses that are interpolated (KITTI: 0.25 s).
   std::int64_t max_gap_ns = 100'000'000;
@@ -58,10 +61,13 @@ struct TrajectoryErrorOptions {
 };
 
 // Statistics of a set of non-negative errors. The median of an even number of them is the mean of
-// the middle two.
+// the middle two; other percentiles are interpolated in the same way, linearly between the two
+// nearest of the sorted errors.
 struct ErrorStatistics {
   std::size_t count = 0;
   double rmse = 0, mean = 0, median = 0, max = 0;
+  double deviation = 0;     // standard deviation: root mean square distance from the mean
+  double p75 = 0, p95 = 0;  // percentiles
 };
 
 // Returns the statistics of some errors; nullopt where there are none. O(n).
@@ -114,7 +120,8 @@ struct TrajectoryError {
 //              1.5 times what the median spacing of rows gives (a longer one spans lost frames)
 //
 //   reference, estimate  of the same camera, stamps ascending, metres
-//   fails    nullopt when no pose of the estimate has a reference
+//   fails    nullopt when no pose of the estimate has a reference; throws InputError for a rotation
+//            that is none (unit_rotation.h)
 //   cost     O(n log n)
 std::optional<TrajectoryError> CompareTrajectories(const Trajectory& reference,
                                                    const Trajectory& estimate,
@@ -146,12 +153,12 @@ Similarity3 AlignPoses(std::span<const EvaluatedPose> poses);
 std::optional<double> ScaleDrift(std::span<const EvaluatedPose> poses);
 
 // Returns the trajectory of the camera for one of the body that carries it: world_from_body *
-// body_from_camera.
+// body_from_camera. Throws InputError for a rotation that is none (unit_rotation.h).
 Trajectory OfCamera(const Trajectory& body, const Rigid3& body_from_camera);
 
 // Returns the trajectory in the world mirrored in y, seen by a camera mirrored in y, for ground
 // truth that belongs to a negative focal length fy (ICL-NUIM). It is M R M and M t with M = diag(1,
-// -1, 1).
+// -1, 1). Throws InputError for a rotation that is none (unit_rotation.h).
 Trajectory MirroredY(const Trajectory& trajectory);
 
 }  // namespace plumbline

@@ -5,10 +5,31 @@
 #include "plumbline/eval/figure.h"
 #include "plumbline/eval/trajectory_error.h"
 
+#include <span>
+#include <string>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
 namespace plumbline {
 
-// Draws the evaluated trajectory from above beside its reference, and below it the position error
-// over time. "Above" is along the axis in which the reference moves least.
+// A comparison to draw, and what the drawing calls its estimate.
+struct NamedError {
+  std::string name;
+  const TrajectoryError* error = nullptr;
+};
+
+// Returns roll, pitch and yaw in degrees: rotation = Rz(yaw) Ry(pitch) Rx(roll), turns about the
+// fixed axes x, y and z, one after the other. Pitch is within 90 degrees of 0; at its ends roll and
+// yaw are not determined apart from each other.
+Eigen::Vector3d RollPitchYawDeg(const Eigen::Quaterniond& rotation);
+
+// Draws evaluated trajectories beside their reference: from above ("above" is along the axis in
+// which the reference of the first one moves least), the position errors over time, and over time
+// x, y, z, roll, pitch and yaw of the camera (world_from_camera) in the world of the reference.
+// Time begins with the earliest pose. Estimates without poses are left out.
+Figure TrajectoryFigure(std::span<const NamedError> errors);
+// Draws one, which is called "estimate".
 Figure TrajectoryFigure(const TrajectoryError& error);
 
 }  // namespace plumbline

@@ -85,10 +85,11 @@ std::string CompressedImageMessage(std::int64_t stamp_ns,
       .Take();
 }
 
-std::string CalibrationMessageOf(std::int64_t stamp_ns, const RectifiedCamera& c) {
+std::string CalibrationMessageOf(std::int64_t stamp_ns, const RectifiedCamera& c, CameraSide side) {
   const std::array<double, 9> k = {c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1};
   const std::array<double, 9> r = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  const std::array<double, 12> p = {c.fx, 0, c.cx, 0, 0, c.fy, c.cy, 0, 0, 0, 1, 0};
+  const double shift = side == CameraSide::kRight ? -c.fx * c.baseline : 0;
+  const std::array<double, 12> p = {c.fx, 0, c.cx, shift, 0, c.fy, c.cy, 0, 0, 0, 1, 0};
   const std::array<double, 5> d{};
   return ProtobufWriter()
       .Message(1, StampMessage(stamp_ns))

@@ -18,8 +18,8 @@
 namespace plumbline {
 
 // Messages of Foxglove's schemas in protobuf. The frames of coordinates are "map", the world of the
-// active map, and "camera", the rectified left camera (x right, y down, z forward). Stamps are
-// those of the sensor in nanoseconds.
+// active map, and "camera", the rectified left camera (x right, y down, z forward); the right
+// camera is told by its distance from it, as in ROS. Stamps are those of the sensor in nanoseconds.
 
 inline constexpr std::string_view kMapFrame = "map";
 inline constexpr std::string_view kCameraFrame = "camera";
@@ -37,7 +37,11 @@ ProtobufWriter PoseMessage(const Rigid3& parent_from_frame);
 std::string CompressedImageMessage(std::int64_t stamp_ns,
                                    std::string_view format,
                                    std::string_view data);
-std::string CalibrationMessageOf(std::int64_t stamp_ns, const RectifiedCamera& camera);
+// The left camera, or the right one of a pair.
+enum class CameraSide { kLeft, kRight };
+std::string CalibrationMessageOf(std::int64_t stamp_ns,
+                                 const RectifiedCamera& camera,
+                                 CameraSide side = CameraSide::kLeft);
 std::string PoseInFrameMessage(std::int64_t stamp_ns, const Rigid3& world_from_camera);
 std::string TransformMessage(std::int64_t stamp_ns, const Rigid3& world_from_camera);
 

@@ -187,7 +187,8 @@ std::vector<MessageRow> RunMessages() {
         {"fx", 3, kDouble},
         {"fy", 4, kDouble},
         {"cx", 5, kDouble},
-        {"cy", 6, kDouble}}},
+        {"cy", 6, kDouble},
+        {"baseline", 7, kDouble}}},
       {"Run",
        {{"name", 1, kString},
         {"frames", 2, kUint32},
@@ -303,6 +304,8 @@ std::span<const FoxgloveChannel> FoxgloveChannels() {
       {"/map/points", "foxglove.PointCloud"},
       {"/map/lines", "foxglove.SceneUpdate"},
       {"/plumbline/updates", "plumbline.Update"},
+      {"/camera_right/image", "foxglove.CompressedImage"},
+      {"/camera_right/calibration", "foxglove.CameraCalibration"},
   }};
   return kChannels;
 }

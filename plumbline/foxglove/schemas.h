@@ -23,9 +23,11 @@ enum class Stream : unsigned {
   kTransform,
   kPoints,
   kLines,
-  kUpdates
+  kUpdates,
+  kRightImage,
+  kRightCalibration
 };
-inline constexpr unsigned kStreams = 8;
+inline constexpr unsigned kStreams = 10;
 
 std::span<const FoxgloveChannel> FoxgloveChannels();
 

@@ -5,6 +5,7 @@
 #include "plumbline/base/largest_angle.h"
 #include "plumbline/geometry/symmetric_system.h"
 #include "plumbline/geometry/trimming.h"
+#include "plumbline/geometry/unit_rotation.h"
 
 #include <algorithm>
 #include <array>
@@ -178,14 +179,18 @@ std::optional<Eigen::Vector4d> InterpretationPlane(const RectifiedCamera& camera
 
 Expected<TriangulatedLine, LineTriangulationFailure> TriangulateLine(
     const RectifiedCamera& camera,
-    std::span<const LineView> views,
+    std::span<const LineView> given,
     const LineTriangulationOptions& options) {
   using enum LineTriangulationFailure;
-  if (views.size() < 2) return kTooFewViews;
+  if (given.size() < 2) return kTooFewViews;
+  std::vector<LineView> views(given.begin(), given.end());
+  for (LineView& view : views) {
+    view.cam_from_world.rotation = UnitRotation(view.cam_from_world.rotation, "a view of the line");
+  }
   // Everything is computed in the frame of the first camera: no line that this camera sees as a
   // line goes through that origin.
   const Rigid3 world_from_local = Inverse(views.front().cam_from_world);
-  std::vector<LineView> local(views.begin(), views.end());
+  std::vector<LineView> local = views;
   std::vector<Eigen::Vector4d> planes;
   for (LineView& view : local) {
     view.cam_from_world = view.cam_from_world * world_from_local;

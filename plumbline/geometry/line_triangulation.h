@@ -78,6 +78,8 @@ struct TriangulatedLine {
 // (eq. 13); its normal matrix gives the covariance. The paper's test m.d < 0.01 is met by any two
 // planes; the reprojection into every view takes its place.
 //
+// Throws InputError for a view whose rotation is none (unit_rotation.h).
+//
 // Cost: O(n^2) for the angle, otherwise O(n).
 Expected<TriangulatedLine, LineTriangulationFailure> TriangulateLine(
     const RectifiedCamera& camera,

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace plumbline {
@@ -21,7 +22,8 @@ using Trajectory = std::vector<StampedPose>;
 
 // Returns the pose at a stamp: linear in position, slerp in orientation between the two neighbours.
 // Returns nullopt outside the trajectory's time and where the neighbours are more than max_gap_ns
-// apart; a stamp that the trajectory contains always has a pose. O(log n).
+// apart; a stamp that the trajectory contains always has a pose. Throws InputError for a rotation
+// that is none (unit_rotation.h). O(log n).
 std::optional<Rigid3> InterpolateAt(const Trajectory& trajectory,
                                     std::int64_t stamp_ns,
                                     std::int64_t max_gap_ns);
@@ -35,6 +37,10 @@ std::optional<std::size_t> NearestIndex(const Trajectory& trajectory,
 // Returns the trajectory with time running backwards: a pose at t moves to mirror_ns - t. Applied
 // twice, this gives the original trajectory.
 Trajectory TimeReversed(Trajectory trajectory, std::int64_t mirror_ns);
+
+// Returns the trajectory with the rotations that UnitRotation (unit_rotation.h) gives; its error
+// names the pose: "WHAT: pose 3 (from 0): expected ...".
+Trajectory WithUnitRotations(Trajectory trajectory, std::string_view what);
 
 // Returns the sum of the distances between successive positions, in metres.
 double PathLength(const Trajectory& trajectory);

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// All of libplumbline_opencv.so, which LoadOpenCvModules() loads.
+// With video_decoder_library.cc all of libplumbline_opencv.so, which LoadOpenCvModules() loads.
 #include "plumbline/image/opencv_modules.h"
+#include "plumbline/image/video_decoder_library.h"
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
@@ -40,6 +41,10 @@ class LinkedModules : public OpenCvModules {
 
   std::unique_ptr<VideoCapture> NewVideoCapture() const override {
     return std::make_unique<OpenCvVideoCapture>();
+  }
+
+  std::unique_ptr<VideoDecoder> OpenVideo(const std::string& path) const override {
+    return OpenVideoDecoder(path);
   }
 
   std::vector<cv::Vec4f> EdgeDrawingLines(const cv::Mat& image) const override {

@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/parallel.h"
 #include "plumbline/geometry/plausible_calibration.h"
+#include "plumbline/geometry/unit_rotation.h"
 #include "plumbline/image/bilinear_map.h"
 #include "plumbline/image/opencv_bridge.h"
 
@@ -192,6 +193,8 @@ Rectifier::Rectifier(const Calibration& calibration) : calibration_(calibration)
   const Camera& left = calibration_.left;
   const bool stereo = calibration_.right.has_value();
   const bool with_depth = calibration_.depth_factor.has_value();
+  Eigen::Quaterniond& right_turn = calibration_.right_from_left.rotation;
+  if (stereo) right_turn = UnitRotation(right_turn, "calibration: right_from_left");
   Refuse(CalibrationFault(calibration_));
   bool unchanged = left.IsIdeal();
   double baseline = with_depth ? kVirtualBaseline : 0;

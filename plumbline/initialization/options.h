@@ -66,7 +66,7 @@ struct InitializationOptions {
   double min_line_angle_deg = 0;
   int reweighting = 5;
   InitialMatching matching = InitialMatching::kImages;
-  PairwiseOptions pairwise;
+  PairwiseOptions pairwise = {};
 };
 
 template <class Visitor>

@@ -5,6 +5,7 @@
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/median.h"
+#include "plumbline/geometry/unit_rotation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -223,7 +224,8 @@ void Rank1Matrix::SetView(Eigen::Index i,
                           const RayRows& p,
                           double min_squared_sine) {
   const CoordinateRows seen(view.points);
-  const Eigen::Matrix3d turn = view.reference_from_cam.toRotationMatrix();
+  const Eigen::Matrix3d turn =
+      UnitRotation(view.reference_from_cam, "the rotation of a view").toRotationMatrix();
   const auto turned = [&](Eigen::Index row) -> Row {
     return turn(row, 0) * seen.x + turn(row, 1) * seen.y + turn(row, 2);
   };

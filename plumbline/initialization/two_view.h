@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/random.h"
 #include "plumbline/initialization/initializer.h"
 #include "plumbline/initialization/matching.h"
 #include "plumbline/initialization/tracks.h"

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <list>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -89,9 +90,14 @@ void AtomicFileWriter::Write(std::string_view bytes) {
 }
 
 // A full disk may report the error of the last write only on closing.
-void AtomicFileWriter::Commit(Durability durability) {
+void AtomicFileWriter::Close() {
+  if (!stream_) return;
   if (std::fflush(stream_.get()) != 0) FailWrite(file_.path(), LastError());
   if (std::fclose(stream_.release()) != 0) FailWrite(file_.path(), LastError());
+}
+
+void AtomicFileWriter::Commit(Durability durability) {
+  Close();
   file_.Commit(durability);
 }
 
@@ -99,6 +105,62 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view con
   AtomicFileWriter file(path);
   file.Write(contents);
   file.Commit();
+}
+
+namespace {
+
+// Keeps a file under a second name while another one takes its place.
+class KeptFile {
+ public:
+  explicit KeptFile(std::filesystem::path path) : path_(std::move(path)) {
+    kept_ =
+        path_.parent_path() /
+        fmt::format(".{}.{}.old{}", path_.stem().string(), ::getpid(), path_.extension().string());
+    std::error_code error;
+    there_ = std::filesystem::exists(path_, error);
+    // Some file systems know no second names: then what is replaced is gone.
+    if (there_) std::filesystem::create_hard_link(path_, kept_, error);
+    is_kept_ = there_ && !error;
+  }
+  KeptFile(const KeptFile&) = delete;
+  KeptFile& operator=(const KeptFile&) = delete;
+  ~KeptFile() {
+    std::error_code ignored;
+    if (is_kept_) std::filesystem::remove(kept_, ignored);
+  }
+
+  // Puts back what was there, if it was nothing, nothing.
+  void PutBack() {
+    std::error_code ignored;
+    if (!there_) std::filesystem::remove(path_, ignored);
+    if (is_kept_) std::filesystem::rename(kept_, path_, ignored);
+  }
+
+ private:
+  std::filesystem::path path_, kept_;
+  bool there_ = false, is_kept_ = false;
+};
+
+}  // namespace
+
+void WriteFilesAtomically(const std::vector<FileContents>& files) {
+  std::list<AtomicFileWriter> writers;
+  for (const FileContents& file : files) {
+    writers.emplace_back(file.path).Write(file.contents);
+    writers.back().Close();
+  }
+  std::list<KeptFile> replaced;
+  std::size_t next = 0;
+  try {
+    for (AtomicFileWriter& writer : writers) {
+      replaced.emplace_back(files[next++].path);
+      writer.Commit();
+    }
+  } catch (...) {
+    replaced.pop_back();  // that of the file that failed, which is as it was
+    for (KeptFile& before : replaced) before.PutBack();
+    throw;
+  }
 }
 
 void CheckWritable(const std::filesystem::path& path) { const AtomicFileWriter begun(path); }

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace plumbline {
 
@@ -70,6 +71,17 @@ class AtomicFile {
   bool committed_ = false;
 };
 
+// A file to be written, and all that it is to hold.
+struct FileContents {
+  std::filesystem::path path;
+  std::string contents;
+};
+
+// Writes several files or none, as WriteFileAtomically writes one: all are complete under temporary
+// names before the first takes its own. Where one cannot take its name (another user's file in a
+// shared folder), those before it get back what was there. Throws WriteError.
+void WriteFilesAtomically(const std::vector<FileContents>& files);
+
 // A folder that appears whole or not at all, where it is new: construct, let files be written below
 // temporary_path(), which is beside the final place, then Commit(). Without Commit everything is
 // removed.
@@ -103,6 +115,9 @@ class AtomicFileWriter {
  public:
   explicit AtomicFileWriter(const std::filesystem::path& path);
   void Write(std::string_view bytes);
+  // Hands over all bytes to the operating system, after which only the name is missing. Nothing is
+  // written after that.
+  void Close();
   void Commit(Durability durability = Durability::kProcess);
 
  private:

@@ -8,6 +8,7 @@
 #include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/io/builtin_cameras.h"
 #include "plumbline/io/camera_section.h"
+#include "plumbline/io/camodocal.h"
 #include "plumbline/io/euroc_sensor.h"
 #include "plumbline/io/kalibr.h"
 #include "plumbline/io/opencv_calibration.h"
@@ -149,7 +150,7 @@ const CameraFormat& FormatOf(const YamlSection& root) {
       {"Kalibr camchain",
        {"cam0", "cam1"},
        ReadKalibr,
-       {.pair = {"cam1/T_cn_cnm1"},
+       {.pair = {"cam1/T_cn_cnm1", "cam1/T_cam_imu", "cam1/T_imu_cam"},
         .rate = {"rate_hz", "cam0/rate_hz"},
         .depth_factor = {"depth_factor", "cam0/depth_factor"},
         .lever = {}}},
@@ -164,6 +165,10 @@ const CameraFormat& FormatOf(const YamlSection& root) {
        {"camera_model", "T_BS"},
        ReadEuroc,
        {.pair = {}, .rate = {"rate_hz"}, .depth_factor = {}, .lever = {"T_BS"}}},
+      {"CamOdoCal file",
+       {"model_type", "projection_parameters"},
+       ReadCamodocal,
+       {.pair = {}, .rate = {"rate_hz"}, .depth_factor = {"depth_factor"}, .lever = {}}},
       {"OpenCV or ROS calibration",
        {"camera_matrix"},
        ReadOpenCvCalibration,

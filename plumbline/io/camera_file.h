@@ -28,8 +28,8 @@ namespace plumbline {
 //   body_from_left: [16 numbers]                # optional, body = frame of the ground truth
 //
 // or one of another program, told apart by its keys: EuRoC's sensor.yaml (one camera), Kalibr's
-// camchain.yaml (kalibr.h), settings of ORB-SLAM2 and 3 (orb_slam_settings.h), and calibrations by
-// OpenCV's programs or ROS (opencv_calibration.h).
+// camchain.yaml (kalibr.h), settings of ORB-SLAM2 and 3 (orb_slam_settings.h), CamOdoCal's files
+// (camodocal.h), and calibrations by OpenCV's programs or ROS (opencv_calibration.h).
 //
 // Throws InputError "source:line: key: expected ..., found ...".
 //

@@ -19,7 +19,7 @@ namespace {
 
 // Has to be increased with every change of what System::Save writes, and with the version of map
 // files.
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 
 // The sections after those of the maps: the input; the state, in as many sections as it needs; the
 // end.

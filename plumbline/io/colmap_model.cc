@@ -17,7 +17,7 @@ namespace plumbline {
 namespace {
 
 constexpr double kHalfPixel = 0.5;  // COLMAP counts pixels from the corner of the image
-constexpr std::uint8_t kUnknownGrey = 128;
+constexpr Color kUnknownColor{128, 128, 128};
 
 ColmapModel::Image ImageOf(const KeyFrame& keyframe, const std::string& name) {
   ColmapModel::Image image{ColmapImageId(keyframe.id), keyframe.frame.cam_from_world, name, {}};
@@ -90,8 +90,8 @@ std::string PointsText(const ColmapModel& model) {
       model.points.size());
   for (const ColmapModel::Point& point : model.points) {
     const Eigen::Vector3d& p = point.position;
-    const auto grey = static_cast<int>(point.grey);
-    Append(text, point.id, p.x(), p.y(), p.z(), grey, grey, grey, point.error);
+    const Color& c = point.color;
+    Append(text, point.id, p.x(), p.y(), p.z(), int{c.r}, int{c.g}, int{c.b}, point.error);
     for (const ColmapModel::View& view : point.track) {
       text += ' ';
       Append(text, view.image, view.keypoint);
@@ -139,7 +139,8 @@ std::string PointsBinary(const ColmapModel& model) {
   writer(static_cast<std::uint64_t>(model.points.size()));
   for (const ColmapModel::Point& point : model.points) {
     const Eigen::Vector3d& p = point.position;
-    Put(writer, point.id, p.x(), p.y(), p.z(), point.grey, point.grey, point.grey, point.error);
+    const Color& c = point.color;
+    Put(writer, point.id, p.x(), p.y(), p.z(), c.r, c.g, c.b, point.error);
     writer(static_cast<std::uint64_t>(point.track.size()));
     for (const ColmapModel::View& view : point.track) Put(writer, view.image, view.keypoint);
   }
@@ -150,7 +151,8 @@ std::string PointsBinary(const ColmapModel& model) {
 
 ColmapModel MakeColmapModel(const SavedMap& saved,
                             const std::map<KeyFrameId, std::string>& names,
-                            const PointGreys& greys) {
+                            const PointColors& colors,
+                            std::span<const PosedImage> others) {
   const RectifiedCamera& c = saved.camera;
   ColmapModel model;
   model.camera = {c.width, c.height, c.fx, c.fy, c.cx + kHalfPixel, c.cy + kHalfPixel};
@@ -159,14 +161,18 @@ ColmapModel MakeColmapModel(const SavedMap& saved,
     image_of[ColmapImageId(id)] = model.images.size();
     model.images.push_back(ImageOf(keyframe, names.at(id)));
   }
+  std::uint32_t next_id = model.images.empty() ? 1 : model.images.back().id + 1;
+  for (const PosedImage& other : others) {
+    model.images.push_back({next_id++, other.cam_from_world, other.name, {}});
+  }
   for (const auto& [id, point] : saved.map.points()) {
     std::optional<ColmapModel::Point> exported = PointOf(saved, point);
     if (!exported) continue;
-    const auto grey = greys.find(id);
+    const auto color = colors.find(id);
     for (const ColmapModel::View& view : exported->track) {
       model.images[image_of.at(view.image)].keypoints[view.keypoint].point = exported->id;
     }
-    exported->grey = grey == greys.end() ? kUnknownGrey : grey->second;
+    exported->color = color == colors.end() ? kUnknownColor : color->second;
     model.points.push_back(std::move(*exported));
   }
   return model;

@@ -3,11 +3,14 @@
 #pragma once
 
 #include "plumbline/geometry/se3.h"
+#include "plumbline/image/color_image.h"
 #include "plumbline/io/map_io.h"
+#include "plumbline/io/posed_image.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,7 +47,7 @@ struct ColmapModel {
   struct Point {
     std::int64_t id = 0;
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
-    std::uint8_t grey = 0;
+    Color color;
     double error = 0;  // mean reprojection error of the track, pixels
     std::vector<View> track;
   };
@@ -54,18 +57,21 @@ struct ColmapModel {
   std::vector<Point> points;  // ordered by id
 };
 
-using PointGreys = std::map<PointId, std::uint8_t>;
+using PointColors = std::map<PointId, Color>;
 
 // Returns a map as a COLMAP model: the rectified left camera, an image for each keyframe with all
 // of its point features, and the points that at least two keyframes show. COLMAP refuses to adjust
 // a model with other points. Ids are those of the map plus 1. An observation of a point that is not
 // in front of the camera does not count.
 //
-//   names  names of the images of all keyframes
-//   greys  grey levels of points, where known; other points get 128
+//   names   names of the images of all keyframes
+//   colors  colours of points, where known; other points are grey, 128
+//   others  images that are no keyframes: they get the ids behind those of the keyframes, in this
+//           order, and no features
 ColmapModel MakeColmapModel(const SavedMap& saved,
                             const std::map<KeyFrameId, std::string>& names,
-                            const PointGreys& greys = {});
+                            const PointColors& colors = {},
+                            std::span<const PosedImage> others = {});
 
 // Returns the id of the image of a keyframe.
 inline std::uint32_t ColmapImageId(KeyFrameId id) {

@@ -15,4 +15,10 @@ Trajectory GroundTruth::OfCamera(const Calibration& calibration) const {
   return camera;
 }
 
+Expected<ColorImage, ImageFailure> Dataset::ReadColor(std::size_t i) const {
+  const Expected<SensorFrame, ImageFailure> frame = Read(i);
+  if (!frame) return frame.error();
+  return ToColor(frame->left);
+}
+
 }  // namespace plumbline

@@ -8,9 +8,9 @@
 #include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/io/camera_file.h"
 #include "plumbline/io/euroc_sensor.h"
+#include "plumbline/io/ground_truth.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/text_rows.h"
-#include "plumbline/io/trajectory_io.h"
 
 #include <optional>
 #include <string>
@@ -25,8 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Reads camN/data.csv: `nanoseconds,file name`.
-std::vector<ListedImage> ReadList(const fs::path& camera_folder) {
+// Reads camN/data.csv, `nanoseconds,file name`, in order of time.
+std::vector<ListedImage> ReadList(const fs::path& camera_folder, std::vector<std::string>& notes) {
   const fs::path csv = camera_folder / "data.csv";
   std::vector<ListedImage> images;
   for (const TextRow& row : ReadRows(csv, ',')) {
@@ -40,14 +40,10 @@ std::vector<ListedImage> ReadList(const fs::path& camera_folder) {
     if (!stamp) {
       FailAt(csv, row.line, "a time stamp in whole nanoseconds", InQuotes(row.fields[0]));
     }
-    CheckStampOrder(csv,
-                    row.line,
-                    images.empty() ? std::nullopt : std::optional(images.back().stamp_ns),
-                    *stamp);
-    images.push_back({*stamp, camera_folder / "data" / row.fields[1]});
+    images.push_back({{*stamp, row.line}, camera_folder / "data" / row.fields[1]});
   }
   if (images.empty()) throw InputError(csv.string() + ": expected images, found no rows");
-  return images;
+  return InOrderOfTime(csv, images, notes);
 }
 
 // Returns pairs of equal stamps; both lists must be in order of time.
@@ -57,9 +53,9 @@ std::vector<FrameFiles> PairUp(const std::vector<ListedImage>& left,
   std::vector<FrameFiles> files;
   std::size_t r = 0;
   for (const ListedImage& image : left) {
-    while (r < right.size() && right[r].stamp_ns < image.stamp_ns) ++r;
-    if (r == right.size() || right[r].stamp_ns != image.stamp_ns) continue;
-    info.stamps_ns.push_back(image.stamp_ns);
+    while (r < right.size() && right[r].row.stamp_ns < image.row.stamp_ns) ++r;
+    if (r == right.size() || right[r].row.stamp_ns != image.row.stamp_ns) continue;
+    info.stamps_ns.push_back(image.row.stamp_ns);
     files.push_back({image.path, right[r].path, std::nullopt});
   }
   if (files.empty()) {
@@ -81,7 +77,8 @@ std::vector<FrameFiles> PairUp(const std::vector<ListedImage>& left,
                                  const YamlSection& right_root,
                                  const Calibration& calibration) {
   const Camera& left = calibration.left;
-  const auto size = ReadImageSize(ReadList(mav / "cam0").front().path);
+  std::vector<std::string> notes;  // the error is what counts
+  const auto size = ReadImageSize(ReadList(mav / "cam0", notes).front().path);
   if (size && (size->width != left.width() || size->height != left.height())) {
     left_root.Fail("resolution",
                    fmt::format("expected {}x{} pixels as the images have, found {}x{}",
@@ -144,26 +141,19 @@ std::unique_ptr<Dataset> OpenEuroc(const fs::path& path, const DatasetOptions& o
   if (stereo) CheckSecondList(mav / "cam1" / "data.csv", "right");
   UseCamera(ReadCalibration(path, mav, options, info.sensor), info);
 
-  const std::vector<ListedImage> left = ReadList(mav / "cam0");
+  const std::vector<ListedImage> left = ReadList(mav / "cam0", info.notes);
   std::vector<FrameFiles> files;
   if (stereo) {
-    files = PairUp(left, ReadList(mav / "cam1"), info);
+    files = PairUp(left, ReadList(mav / "cam1", info.notes), info);
   } else {
     for (const ListedImage& image : left) {
-      info.stamps_ns.push_back(image.stamp_ns);
+      info.stamps_ns.push_back(image.row.stamp_ns);
       files.push_back({image.path, std::nullopt, std::nullopt});
     }
   }
-  const fs::path truth = mav / "state_groundtruth_estimate0" / "data.csv";
-  if (PathExists(truth)) {
-    info.ground_truth = GroundTruth{ReadTrajectory(truth).poses, GroundTruth::Frame::kBody, truth};
-    if (!info.calibration.body_from_left) {
-      info.ground_truth.reset();
-      info.notes.emplace_back(
-          "the ground truth is not used: it is of a body, and the camera file has no "
-          "body_from_left");
-    }
-  }
+  AddGroundTruth({{mav / "state_groundtruth_estimate0" / "data.csv"}, GroundTruth::Frame::kBody},
+                 options,
+                 info);
   return MakeImageDataset(std::move(info), std::move(files));
 }
 

@@ -53,6 +53,14 @@ class ImageDataset : public Dataset {
     return frame;
   }
 
+  Expected<ColorImage, ImageFailure> ReadColor(std::size_t i) const override {
+    const ImageSize size = SizeOf(calibration().left);
+    auto image = ReadColorImage(files_.at(i).left,
+                                info().has_calibration ? std::optional(size) : std::nullopt);
+    if (!image) return FailureOf(image.error(), size);
+    return image;
+  }
+
  private:
   std::vector<FrameFiles> files_;
 };
@@ -153,6 +161,17 @@ bool PathExists(const fs::path& path) {
   return exists;
 }
 
+std::vector<ListedImage> InOrderOfTime(const fs::path& list,
+                                       const std::vector<ListedImage>& images,
+                                       std::vector<std::string>& notes) {
+  std::vector<StampedRow> rows;
+  rows.reserve(images.size());
+  for (const ListedImage& image : images) rows.push_back(image.row);
+  std::vector<ListedImage> ordered;
+  for (const std::size_t i : OrderOfTime(list, rows, notes)) ordered.push_back(images[i]);
+  return ordered;
+}
+
 void CheckSecondList(const fs::path& list, const char* images) {
   if (PathExists(list)) return;
   throw InputError(
@@ -225,6 +244,7 @@ std::unique_ptr<Dataset> MakeImageDataset(DatasetInfo info, std::vector<FrameFil
   const auto first = std::find_if(
       files.begin(), files.end(), [](const FrameFiles& frame) { return PathExists(frame.left); });
   if (first != files.end()) NoteBits(BrightestOf16Bits(first->left), info);
+  NoteRate(info);
   auto dataset = std::make_unique<ImageDataset>(std::move(info), std::move(files));
   CheckFirstFrame(*dataset);
   return dataset;
@@ -237,6 +257,23 @@ void NoteBits(std::optional<int> brightest, DatasetInfo& info) {
                   "the first one, {} of 65535, becomes {} of 255",
                   *brightest,
                   *brightest / 256));
+}
+
+void NoteRate(DatasetInfo& info) {
+  constexpr std::int64_t kShortestNs = 1'000'000;
+  constexpr std::size_t kFewest = 10;
+  std::vector<std::int64_t> intervals;
+  for (std::size_t i = 1; i < info.stamps_ns.size(); ++i) {
+    intervals.push_back(info.stamps_ns[i] - info.stamps_ns[i - 1]);
+  }
+  if (intervals.size() < kFewest) return;
+  const auto median = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+  std::nth_element(intervals.begin(), median, intervals.end());
+  if (*median >= kShortestNs) return;
+  info.notes.push_back(
+      fmt::format("the time stamps are those of {:.0f} frames a second, which no camera takes: are "
+                  "they in another unit than nanoseconds?",
+                  1e9 / static_cast<double>(*median)));
 }
 
 DatasetInfo DescribeDataset(const fs::path& path,

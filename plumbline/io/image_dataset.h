@@ -4,6 +4,7 @@
 
 #include "plumbline/io/camera_file.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/stamp_order.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -16,9 +17,14 @@ namespace plumbline {
 
 // An entry of a list of images.
 struct ListedImage {
-  std::int64_t stamp_ns = 0;
+  StampedRow row;
   std::filesystem::path path;
 };
+
+// Returns the images of a list in order of time, each time once (OrderOfTime).
+std::vector<ListedImage> InOrderOfTime(const std::filesystem::path& list,
+                                       const std::vector<ListedImage>& images,
+                                       std::vector<std::string>& notes);
 
 // Whether there is such a file or folder. Throws InputError where that cannot be found out.
 bool PathExists(const std::filesystem::path& path);
@@ -52,6 +58,11 @@ void CheckFirstFrame(const Dataset& dataset);
 // (BrightestOf16Bits). Such grey levels lose their lower 8 bits, so that images of a camera with 12
 // bits that are not shifted up are almost black.
 void NoteBits(std::optional<int> brightest, DatasetInfo& info);
+
+// Adds a note where the stamps are so close to each other as no camera takes images (most of them
+// less than a millisecond apart, of more than ten): as a rule they are in another unit than the
+// format has.
+void NoteRate(DatasetInfo& info);
 
 // Fills in name, path, format, available and sensor: the sensor asked for, or the richest one.
 // Throws InputError when the data does not offer it.

@@ -122,6 +122,17 @@ Expected<std::vector<std::uint8_t>, ImageFailure> ReadBytes(const std::filesyste
   return bytes;
 }
 
+// Returns so many bytes from the start of a file, or as many as it has.
+std::vector<std::uint8_t> FirstBytes(const std::filesystem::path& path, std::size_t most) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return {};  // a pipe never ends
+  std::vector<std::uint8_t> start(most);
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(start.data()), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  return start;
+}
+
 // Returns the size of an image whose file is complete, judged by its structure.
 Expected<ImageSize, ImageFailure> CheckedSize(const std::filesystem::path& path, Bytes bytes) {
   if (bytes.empty()) return ImageFailure{path, "the file is empty"};
@@ -139,12 +150,14 @@ Expected<ImageSize, ImageFailure> CheckedSize(const std::filesystem::path& path,
   return *size;
 }
 
-// Returns the upper 8 bits of grey levels of 16 bits.
-GrayImage UpperBytes(const cv::Mat& mat) {
+// Returns the upper 8 of so many bits of grey levels.
+GrayImage UpperBits(const cv::Mat& mat, int bits) {
   GrayImage gray(mat.cols, mat.rows);
   for (int y = 0; y < mat.rows; ++y) {
     const auto* in = mat.ptr<std::uint16_t>(y);
-    for (int x = 0; x < mat.cols; ++x) gray.at(x, y) = static_cast<std::uint8_t>(in[x] >> 8U);
+    for (int x = 0; x < mat.cols; ++x) {
+      gray.at(x, y) = static_cast<std::uint8_t>(std::min(in[x] >> (bits - 8), 255));
+    }
   }
   return gray;
 }
@@ -166,6 +179,27 @@ Expected<cv::Mat, ImageFailure> DecodeMat(const std::filesystem::path& path,
   return mat;
 }
 
+// Decodes an image to 8 bits, or to 16 bits of grey, of one channel or in colour.
+// Decoders that turn colour into grey themselves round differently, so that colours are decoded.
+Expected<cv::Mat, ImageFailure> DecodeLight(const std::filesystem::path& name,
+                                            Bytes bytes,
+                                            std::optional<ImageSize> wanted) {
+  return DecodeMat(name, bytes, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION, wanted);
+}
+
+//   bits  how many of the 16 bits of a level are used
+Expected<GrayImage, ImageFailure> GrayOf(const std::filesystem::path& name,
+                                         const cv::Mat& mat,
+                                         int bits) {
+  if (mat.type() == CV_8UC1) return ToImage<std::uint8_t>(mat);
+  if (mat.type() == CV_16UC1) return UpperBits(mat, bits);
+  if (mat.type() != CV_8UC3) return ImageFailure{name, "neither a grey nor a colour image"};
+  GrayImage gray(mat.cols, mat.rows);
+  cv::Mat out = AsMat(gray);
+  cv::cvtColor(mat, out, cv::COLOR_BGR2GRAY);
+  return gray;
+}
+
 }  // namespace
 
 std::optional<std::string> FindDamage(std::span<const std::uint8_t> bytes) {
@@ -181,20 +215,36 @@ Expected<ImageSize, ImageFailure> ReadImageSize(const std::filesystem::path& pat
   return CheckedSize(path, *bytes);
 }
 
+int ReadExifOrientation(const std::filesystem::path& path) {
+  constexpr std::size_t kHeader = 1U << 17U;  // EXIF data of a JPEG file have 64 kB at most
+  const std::vector<std::uint8_t> start = FirstBytes(path, kHeader);
+  if (!IsWebp(start)) return ExifOrientation(start);
+  const auto bytes = ReadBytes(path);  // there they stand at the end
+  return bytes ? ExifOrientation(*bytes) : 1;
+}
+
 Expected<GrayImage, ImageFailure> DecodeGrayImage(const std::filesystem::path& name,
                                                   std::span<const std::uint8_t> bytes,
-                                                  std::optional<ImageSize> wanted) {
-  // Decoders that turn colour into grey themselves round differently, so that colours are decoded.
-  const Expected<cv::Mat, ImageFailure> mat =
-      DecodeMat(name, bytes, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION, wanted);
+                                                  std::optional<ImageSize> wanted,
+                                                  int bits) {
+  PLUMBLINE_CHECK(bits >= 8 && bits <= 16, "bits of a level");
+  const Expected<cv::Mat, ImageFailure> mat = DecodeLight(name, bytes, wanted);
   if (!mat) return mat.error();
-  if (mat->type() == CV_8UC1) return ToImage<std::uint8_t>(*mat);
-  if (mat->type() == CV_16UC1) return UpperBytes(*mat);
-  if (mat->type() != CV_8UC3) return ImageFailure{name, "neither a grey nor a colour image"};
-  GrayImage gray(mat->cols, mat->rows);
-  cv::Mat out = AsMat(gray);
-  cv::cvtColor(*mat, out, cv::COLOR_BGR2GRAY);
-  return gray;
+  return GrayOf(name, *mat, bits);
+}
+
+Expected<ColorImage, ImageFailure> DecodeColorImage(const std::filesystem::path& name,
+                                                    std::span<const std::uint8_t> bytes,
+                                                    std::optional<ImageSize> wanted) {
+  const Expected<cv::Mat, ImageFailure> mat = DecodeLight(name, bytes, wanted);
+  if (!mat) return mat.error();
+  if (mat->type() == CV_8UC3) {
+    const std::size_t size = mat->step * static_cast<std::size_t>(mat->rows);
+    return FromInterleaved(mat->cols, mat->rows, {{mat->data, size}, mat->step});
+  }
+  const Expected<GrayImage, ImageFailure> gray = GrayOf(name, *mat, 16);
+  if (!gray) return gray.error();
+  return ToColor(*gray);
 }
 
 Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& path,
@@ -204,16 +254,16 @@ Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& pat
   return DecodeGrayImage(path, *bytes, wanted);
 }
 
+Expected<ColorImage, ImageFailure> ReadColorImage(const std::filesystem::path& path,
+                                                  std::optional<ImageSize> wanted) {
+  const auto bytes = ReadBytes(path);
+  if (!bytes) return bytes.error();
+  return DecodeColorImage(path, *bytes, wanted);
+}
+
 std::optional<int> BrightestOf16Bits(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;  // a pipe never ends
   constexpr std::size_t kHeader = 4096;  // with comments of a PGM file, as a rule
-  std::array<std::uint8_t, kHeader> start{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(reinterpret_cast<char*>(start.data()), start.size());
-  if (!IsGreyOf16Bits(Bytes(start).first(static_cast<std::size_t>(file.gcount())))) {
-    return std::nullopt;
-  }
+  if (!IsGreyOf16Bits(FirstBytes(path, kHeader))) return std::nullopt;
   const auto bytes = ReadBytes(path);
   return bytes ? BrightestOf16Bits(Bytes(*bytes)) : std::nullopt;
 }

@@ -121,25 +121,81 @@ std::optional<ImageSize> SizeOfBmp(const Header& file) {
   return Size(file.Little(18, 4), (height & kSign) != 0 ? 0U - height : height);
 }
 
-// Returns the size of a TIFF file, which is in tags 256 and 257 of the first directory.
-std::optional<ImageSize> SizeOfTiff(const Header& file) {
-  const bool big = file.Byte(0) == 'M';
-  const auto number = [&](std::size_t at, std::size_t count) {
-    return big ? file.Big(at, count) : file.Little(at, count);
-  };
-  constexpr std::uint32_t kWidth = 256, kHeight = 257, kShort = 3, kLong = 4;
-  const std::size_t directory = number(4, 4);
-  const std::size_t entries = number(directory, 2);
-  std::uint32_t width = 0, height = 0;
-  for (std::size_t i = 0; i < entries && directory + 2 + 12 * i < file.size(); ++i) {
-    const std::size_t entry = directory + 2 + 12 * i;
-    const std::uint32_t type = number(entry + 2, 2);
-    if (type != kShort && type != kLong) continue;
-    const std::uint32_t value = number(entry + 8, type == kShort ? 2 : 4);
-    if (number(entry, 2) == kWidth) width = value;
-    if (number(entry, 2) == kHeight) height = value;
+// The first directory of a TIFF file, which may stand inside another file (EXIF), `begin` bytes
+// from its start.
+class TiffDirectory {
+ public:
+  TiffDirectory(const Header& file, std::size_t begin)
+      : file_(file), big_(file.Byte(begin) == 'M') {
+    directory_ = begin + Number(begin + 4, 4);
+    entries_ = Number(directory_, 2);
   }
-  return Size(width, height);
+
+  // The value of a tag that is one whole number; 0 where it is missing.
+  std::uint32_t Tag(std::uint32_t tag) const {
+    constexpr std::uint32_t kShort = 3, kLong = 4;
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < entries_ && directory_ + 2 + 12 * i < file_.size(); ++i) {
+      const std::size_t entry = directory_ + 2 + 12 * i;
+      const std::uint32_t type = Number(entry + 2, 2);
+      if (type != kShort && type != kLong) continue;
+      if (Number(entry, 2) == tag) value = Number(entry + 8, type == kShort ? 2 : 4);
+    }
+    return value;
+  }
+
+  static bool BeginsAt(const Header& file, std::size_t at) {
+    return file.Has(at, std::string_view("II*\0", 4)) || file.Has(at, std::string_view("MM\0*", 4));
+  }
+
+ private:
+  std::uint32_t Number(std::size_t at, std::size_t count) const {
+    return big_ ? file_.Big(at, count) : file_.Little(at, count);
+  }
+
+  const Header& file_;
+  bool big_;
+  std::size_t directory_ = 0, entries_ = 0;
+};
+
+std::optional<ImageSize> SizeOfTiff(const Header& file) {
+  constexpr std::uint32_t kWidth = 256, kHeight = 257;
+  const TiffDirectory directory(file, 0);
+  return Size(directory.Tag(kWidth), directory.Tag(kHeight));
+}
+
+// Return where the EXIF data of a file begin, which are a TIFF file; nullopt where there are none.
+std::optional<std::size_t> ExifOfJpeg(const Header& file) {
+  constexpr std::string_view kExif("Exif\0\0", 6);
+  std::size_t at = 2;
+  while (at + 4 <= file.size() && file.Byte(at) == 0xFF) {
+    const std::uint32_t marker = file.Byte(at + 1);
+    if (marker == 0xFF) {  // fill byte
+      ++at;
+      continue;
+    }
+    if (marker == 0xE1 && file.Has(at + 4, kExif)) return at + 4 + kExif.size();
+    if (marker == 0xDA) break;
+    at += 2 + file.Big(at + 2, 2);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> ExifOfPng(const Header& file) {
+  for (std::size_t at = 8; at + 12 <= file.size(); at += 12 + std::size_t{file.Big(at, 4)}) {
+    if (file.Has(at + 4, "eXIf")) return at + 8;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> ExifOfWebp(const Header& file) {
+  constexpr std::string_view kExif("Exif\0\0", 6);  // some writers repeat JPEG's marker
+  for (std::size_t at = 12; at + 8 <= file.size();) {
+    const std::size_t length = file.Little(at + 4, 4);
+    if (file.Has(at, "EXIF")) return at + 8 + (file.Has(at + 8, kExif) ? kExif.size() : 0);
+    at += 8 + length + length % 2;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -150,9 +206,7 @@ std::optional<ImageSize> SizeInHeader(std::span<const std::uint8_t> bytes) {
   if (file.Has(0, "\xFF\xD8\xFF")) return SizeOfJpeg(file);
   if (file.Has(0, "RIFF") && file.Has(8, "WEBP")) return SizeOfWebp(file);
   if (file.Has(0, "BM")) return SizeOfBmp(file);
-  if (file.Has(0, std::string_view("II*\0", 4)) || file.Has(0, std::string_view("MM\0*", 4))) {
-    return SizeOfTiff(file);
-  }
+  if (TiffDirectory::BeginsAt(file, 0)) return SizeOfTiff(file);
   if (file.Byte(0) == 'P' && file.Byte(1) >= '1' && file.Byte(1) <= '6') return SizeOfPnm(file);
   return std::nullopt;
 }
@@ -166,6 +220,19 @@ bool IsGreyOf16Bits(std::span<const std::uint8_t> bytes) {
   if (!file.Has(0, "P2") && !file.Has(0, "P5")) return false;
   const std::optional<PnmNumbers> numbers = NumbersOfPnm(file, 3);
   return numbers && (*numbers)[2] > kMostOf8Bits && (*numbers)[2] <= kMost;
+}
+
+int ExifOrientation(std::span<const std::uint8_t> bytes) {
+  constexpr std::uint32_t kOrientation = 274, kLast = 8;
+  const Header file(bytes);
+  std::optional<std::size_t> exif;
+  if (file.Has(0, "\x89PNG\r\n\x1a\n")) exif = ExifOfPng(file);
+  if (file.Has(0, "\xFF\xD8\xFF")) exif = ExifOfJpeg(file);
+  if (file.Has(0, "RIFF") && file.Has(8, "WEBP")) exif = ExifOfWebp(file);
+  if (TiffDirectory::BeginsAt(file, 0)) exif = 0;
+  if (!exif || !TiffDirectory::BeginsAt(file, *exif)) return 1;
+  const std::uint32_t orientation = TiffDirectory(file, *exif).Tag(kOrientation);
+  return orientation >= 1 && orientation <= kLast ? static_cast<int>(orientation) : 1;
 }
 
 }  // namespace plumbline

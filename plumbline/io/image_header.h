@@ -23,4 +23,9 @@ std::optional<ImageSize> SizeInHeader(std::span<const std::uint8_t> bytes);
 // levels beyond 255, which are stored in 16 bits. The first bytes of the file are enough.
 bool IsGreyOf16Bits(std::span<const std::uint8_t> bytes);
 
+// Returns the EXIF orientation, 1 to 8, that a JPEG, PNG, WebP or TIFF file asks for; 1, as stored,
+// where it asks for none. Of JPEG and PNG files the first bytes are enough: what a PNG file has
+// behind its pixels is not looked for.
+int ExifOrientation(std::span<const std::uint8_t> bytes);
+
 }  // namespace plumbline

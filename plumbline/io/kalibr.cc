@@ -22,6 +22,18 @@ std::optional<double> AddedNumber(const YamlSection& root, const std::string& ke
   return root.Positive(key);
 }
 
+// The place of the right camera: Kalibr's own, or what follows from the places of both cameras at
+// an inertial sensor, where there is nothing else, as OpenVINS writes it.
+Rigid3 RightFromLeft(const YamlSection& left, const YamlSection& right) {
+  if (!right.Has("T_cn_cnm1")) {
+    const auto both = [&](const char* key) { return left.Has(key) && right.Has(key); };
+    if (both("T_cam_imu")) return right.Motion("T_cam_imu") * Inverse(left.Motion("T_cam_imu"));
+    if (both("T_imu_cam")) return Inverse(right.Motion("T_imu_cam")) * left.Motion("T_imu_cam");
+    right.Fail("T_cn_cnm1", "expected it, or T_cam_imu or T_imu_cam of both cameras, found none");
+  }
+  return right.Motion("T_cn_cnm1");
+}
+
 }  // namespace
 
 Calibration ReadKalibr(const YamlSection& root) {
@@ -30,7 +42,7 @@ Calibration ReadKalibr(const YamlSection& root) {
   if (root.Has("cam1")) {
     const YamlSection right = root.Child("cam1");
     calibration.right = ReadCamera(right);
-    calibration.right_from_left = right.Motion("T_cn_cnm1");
+    calibration.right_from_left = RightFromLeft(root.Child("cam0"), right);
   }
   calibration.rate_hz = AddedNumber(root, "rate_hz");
   calibration.depth_factor = AddedNumber(root, "depth_factor");

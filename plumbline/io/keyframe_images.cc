@@ -9,6 +9,8 @@
 #include "plumbline/features/orb.h"
 #include "plumbline/geometry/camera_difference.h"
 #include "plumbline/image/gradient.h"
+#include "plumbline/io/frame_preparation.h"
+#include "plumbline/io/ground_truth.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
 
@@ -38,6 +40,15 @@ std::optional<std::string> LeftCameraDifference(const Rectifier& rectifier, cons
   camera.baseline = saved.camera.baseline;
   return CameraDifference({saved.camera, saved.rectified_from_left},
                           {camera, rectifier.rectified_left_from_left()});
+}
+
+// The images are as large as the map's camera, whatever the data have: it was run on reduced ones
+// where they have more. Images that are turned are those of one camera.
+DatasetOptions AsUsedFor(const SavedMap& saved, DatasetOptions options) {
+  if (!options.max_width) options.max_width = saved.camera.width;
+  options.ground_truth = kNoGroundTruth;
+  if (!options.sensor && !TurnOf(options.rotate).IsIdentity()) options.sensor = SensorKind::kMono;
+  return options;
 }
 
 bool IsInside(const GrayImage& image, const Segment2& segment) {
@@ -80,6 +91,23 @@ bool MayShow(const GrayImage& image, const KeyFrame& keyframe, double octave_sca
   return bits.size() < kFewest || UpperMedian(bits) <= kMostBits;
 }
 
+[[noreturn]] void FailCamera(const std::filesystem::path& path, const std::string& difference) {
+  throw InputError(path.string() + ": expected the camera that the map was made with, found " +
+                   "another one: " + difference);
+}
+
+GrayImage Rectified(const Rectifier& rectifier, GrayImage left) {
+  SensorFrame frame;
+  frame.left = std::move(left);
+  return rectifier.Apply(std::move(frame)).left;
+}
+
+ColorImage Rectified(const Rectifier& rectifier, ColorImage left) {
+  if (IsGray(left)) return ToColor(Rectified(rectifier, std::move(left.red)));
+  return WithEachChannel(
+      std::move(left), [&](GrayImage channel) { return Rectified(rectifier, std::move(channel)); });
+}
+
 }  // namespace
 
 std::map<KeyFrameId, std::string> KeyFrameImageNames(const Map& map) {
@@ -94,9 +122,10 @@ std::map<KeyFrameId, std::string> KeyFrameImageNames(const Map& map) {
 }
 
 KeyFrameImages::KeyFrameImages(const std::filesystem::path& path,
-                               const DatasetOptions& options,
+                               const DatasetOptions& given,
                                const SavedMap& saved)
-    : path_(path), octave_scale_(saved.octave_scale) {
+    : octave_scale_(saved.octave_scale) {
+  const DatasetOptions options = AsUsedFor(saved, given);
   dataset_ = OpenDataset(path, options);
   std::vector<SensorKind> sensors = dataset_->info().available;
   if (options.sensor) sensors = {*options.sensor};
@@ -113,38 +142,58 @@ KeyFrameImages::KeyFrameImages(const std::filesystem::path& path,
     }
     if (!difference) difference = difference_now;
   }
-  if (difference) {
-    throw InputError(path.string() + ": expected the camera that the map was made with, found " +
-                     "another one: " + *difference);
+  if (difference) FailCamera(path, *difference);
+  CheckKeyFrames(saved);
+}
+
+KeyFrameImages::KeyFrameImages(std::shared_ptr<const Dataset> dataset, const SavedMap& saved)
+    : octave_scale_(saved.octave_scale), dataset_(std::move(dataset)) {
+  rectifier_ = std::make_unique<Rectifier>(dataset_->calibration());
+  if (const auto difference = LeftCameraDifference(*rectifier_, saved)) {
+    FailCamera(path(), *difference);
   }
+  CheckKeyFrames(saved);
+}
+
+void KeyFrameImages::CheckKeyFrames(const SavedMap& saved) const {
   for (const auto& [id, keyframe] : saved.map.keyframes()) {
-    if (FrameAt(*dataset_, keyframe.frame.stamp_ns)) continue;
+    if (HasFrame(keyframe.frame.stamp_ns)) continue;
     throw InputError(
         fmt::format("{}: expected a frame at {} s, where the map has keyframe {}, found none",
-                    path.string(),
+                    path().string(),
                     FormatStamp(keyframe.frame.stamp_ns),
                     id.value));
   }
 }
 
-GrayImage KeyFrameImages::Read(const KeyFrame& keyframe) const {
-  const auto index = FrameAt(*dataset_, keyframe.frame.stamp_ns);
-  PLUMBLINE_CHECK(index.has_value(), "a keyframe of another map");
-  const Expected<SensorFrame, ImageFailure> read = dataset_->Read(*index);
+bool KeyFrameImages::HasFrame(std::int64_t stamp_ns) const {
+  return FrameAt(*dataset_, stamp_ns).has_value();
+}
+
+ColorImage KeyFrameImages::ReadRaw(std::int64_t stamp_ns) const {
+  const auto index = FrameAt(*dataset_, stamp_ns);
+  PLUMBLINE_CHECK(index.has_value(), "a frame of the data");
+  Expected<ColorImage, ImageFailure> read = dataset_->ReadColor(*index);
   if (!read) throw InputError(read.error().path.string() + ": " + read.error().why);
-  SensorFrame left;
-  left.stamp_ns = read->stamp_ns;
-  left.left = read->left;
-  GrayImage image = rectifier_->Apply(std::move(left)).left;
-  if (octave_scale_ && !MayShow(image, keyframe, *octave_scale_)) {
+  return *std::move(read);
+}
+
+ColorImage KeyFrameImages::ReadAt(std::int64_t stamp_ns) const {
+  return Rectified(*rectifier_, ReadRaw(stamp_ns));
+}
+
+ColorImage KeyFrameImages::Read(const KeyFrame& keyframe) const {
+  ColorImage image = ReadRaw(keyframe.frame.stamp_ns);
+  const bool compare = octave_scale_.has_value();
+  if (compare && !MayShow(Rectified(*rectifier_, ToGray(image)), keyframe, *octave_scale_)) {
     throw InputError(
         fmt::format("{}: expected the images that the map was made of, found another one at {} s, "
                     "where the map has keyframe {} (played backwards, or another session?)",
-                    path_.string(),
+                    path().string(),
                     FormatStamp(keyframe.frame.stamp_ns),
                     keyframe.id.value));
   }
-  return image;
+  return Rectified(*rectifier_, std::move(image));
 }
 
 }  // namespace plumbline

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/image/color_image.h"
 #include "plumbline/image/rectify.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/map_io.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -19,8 +21,9 @@ namespace plumbline {
 // get "<stamp>_2.png", "<stamp>_3.png" and so on.
 std::map<KeyFrameId, std::string> KeyFrameImageNames(const Map& map);
 
-// The images of a map's keyframes as the camera of the map sees them: without distortion, rectified
-// for stereo. They are found by their time stamps in the data from which the map was made.
+// The images of a map's keyframes, and of other frames, as the camera of the map sees them: without
+// distortion, rectified for stereo, in colour where the data have colour. They are found by their
+// time stamps in the data from which the map was made.
 //
 // Stamps alone do not tell whether the data are those: the stamps of a run that was played
 // backwards are mirrored, and sessions of one map may have the same stamps. So each image is
@@ -28,22 +31,36 @@ std::map<KeyFrameId, std::string> KeyFrameImageNames(const Map& map);
 // descriptors. An image that was blurred for the run (--blur) is close enough.
 class KeyFrameImages {
  public:
-  // Opens the data. `options` without a sensor: the sensor is the one whose images fit the map.
+  // Opens the data. `options` without a sensor: the sensor is the one whose images fit the map;
+  // without a greatest width: that of the map's camera, so that images are reduced as for the run.
   // Throws InputError where the data's camera is not that of the map, or the data has no frame at
   // the time of a keyframe.
   KeyFrameImages(const std::filesystem::path& path,
                  const DatasetOptions& options,
                  const SavedMap& saved);
+  // The same of data that are open, with the sensor they were opened as.
+  KeyFrameImages(std::shared_ptr<const Dataset> dataset, const SavedMap& saved);
 
   // Reads the left image. Throws InputError when it cannot be read, and where it is another one
   // than the keyframe was made of. What features are compared with is known of maps with an
   // octave_scale only; keyframes with very few features are not compared.
-  GrayImage Read(const KeyFrame& keyframe) const;
+  ColorImage Read(const KeyFrame& keyframe) const;
+
+  // Whether the data have a frame of exactly this time.
+  bool HasFrame(std::int64_t stamp_ns) const;
+  // Reads the left image of a frame that there is, without a keyframe to compare it with. Throws
+  // InputError when it cannot be read.
+  ColorImage ReadAt(std::int64_t stamp_ns) const;
+
+  // The data.
+  const std::filesystem::path& path() const { return dataset_->info().path; }
 
  private:
-  std::filesystem::path path_;
+  void CheckKeyFrames(const SavedMap& saved) const;
+  ColorImage ReadRaw(std::int64_t stamp_ns) const;
+
   std::optional<double> octave_scale_;
-  std::unique_ptr<Dataset> dataset_;
+  std::shared_ptr<const Dataset> dataset_;
   std::unique_ptr<Rectifier> rectifier_;
 };
 

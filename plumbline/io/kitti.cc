@@ -3,9 +3,12 @@
 #include "plumbline/io/kitti.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/geometry/plausible_calibration.h"
+#include "plumbline/base/printable.h"
 #include "plumbline/io/camera_file.h"
+#include "plumbline/io/ground_truth.h"
 #include "plumbline/io/image_dataset.h"
+#include "plumbline/io/kitti_calibration.h"
+#include "plumbline/io/stamp_order.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/io/trajectory_io.h"
 
@@ -17,79 +20,48 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
 #include <fmt/core.h>
 
 namespace plumbline {
 namespace {
 
 namespace fs = std::filesystem;
-using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
-// A row of calib.txt.
-struct Projection {
-  Matrix34 matrix;
-  int line = 0;
+// Where the images and times of a sequence are.
+struct KittiLayout {
+  bool raw = false;  // a drive of KITTI raw; else a sequence of KITTI odometry
+  KittiCameras cameras;
+
+  bool grey() const { return cameras.left == 0; }
+  // "image_0", of KITTI raw "image_00".
+  std::string Camera(int number) const { return fmt::format("image_{:0{}}", number, raw ? 2 : 1); }
+  fs::path Images(const fs::path& path, int number) const {
+    return raw ? path / Camera(number) / "data" : path / Camera(number);
+  }
+  fs::path Times(const fs::path& path) const {
+    return raw ? path / Camera(cameras.left) / "timestamps.txt" : path / "times.txt";
+  }
 };
 
-// Returns the one row of this name; throws InputError where there is none, or where two differ.
-TextRow OnlyRow(const fs::path& file, const std::string& name) {
-  std::optional<TextRow> found;
-  for (const TextRow& row : ReadRows(file, ' ')) {
-    if (row.fields[0] != name) continue;
-    if (found && found->fields != row.fields) {
-      FailAt(file,
-             row.line,
-             fmt::format("one row '{}'", name),
-             fmt::format("another one after that of line {}", found->line));
+// Finds out which cameras there are: the grey ones, else those with colours.
+KittiLayout FindLayout(const fs::path& path) {
+  for (const bool raw : {false, true}) {
+    for (const int left : {0, 2}) {
+      KittiLayout layout{raw, {left, std::nullopt}};
+      if (!PathExists(path / layout.Camera(left))) continue;
+      if (PathExists(path / layout.Camera(left + 1))) layout.cameras.right = left + 1;
+      return layout;
     }
-    found = row;
   }
-  if (found) return *found;
-  throw InputError(fmt::format("{}: expected a row '{}', found none", file.string(), name));
-}
-
-// Reads a row `P0: 12 numbers` of calib.txt as an ideal pinhole; throws InputError otherwise.
-Projection ReadProjection(const fs::path& file, const std::string& name) {
-  const TextRow row = OnlyRow(file, name + ":");
-  if (row.fields.size() != 13) {
-    FailAt(file, row.line, "12 numbers after " + name + ":", std::to_string(row.fields.size() - 1));
-  }
-  Matrix34 p;
-  for (std::size_t i = 0; i < 12; ++i) {
-    p(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)) =
-        NumberField(file, row, i + 1);
-  }
-  if (p(0, 0) <= 0 || p(1, 1) <= 0 || p(0, 1) != 0 || p(1, 0) != 0 ||
-      p.row(2).head<3>() != Eigen::RowVector3d(0, 0, 1)) {
-    FailAt(file, row.line, "the projection of a rectified camera", "another matrix");
-  }
-  return {p, row.line};
-}
-
-// Throws InputError at the line of the file where there is a fault (plausible_calibration.h).
-void Refuse(const std::optional<std::string>& fault, const fs::path& file, int line) {
-  if (fault) throw InputError(fmt::format("{}:{}: {}", file.string(), line, *fault));
-}
-
-Camera ToCamera(const Projection& projection, const fs::path& file, int width, int height) {
-  const Matrix34& p = projection.matrix;
-  CameraIntrinsics k;
-  k.fx = p(0, 0);
-  k.fy = p(1, 1);
-  k.cx = p(0, 2);
-  k.cy = p(1, 2);
-  k.width = width;
-  k.height = height;
-  Refuse(SizeFault(width, height), file, projection.line);
-  Refuse(IntrinsicsFault(k), file, projection.line);
-  return Camera(k);
+  return {false, {0, PathExists(path / "image_1") ? std::optional(1) : std::nullopt}};
 }
 
 // Returns the size of most images, judged by a few that are spread over the sequence, since
 // calib.txt has none. An image of another size is then the one at fault, even where it is the
 // first.
-ImageSize SizeOfMost(const fs::path& path, const std::vector<FrameFiles>& files) {
+ImageSize SizeOfMost(const fs::path& path,
+                     const KittiLayout& layout,
+                     const std::vector<FrameFiles>& files) {
   constexpr std::size_t kAsked = 9;
   const std::size_t step = std::max<std::size_t>(1, files.size() / kAsked);
   std::vector<std::pair<ImageSize, int>> votes;
@@ -108,8 +80,9 @@ ImageSize SizeOfMost(const fs::path& path, const std::vector<FrameFiles>& files)
     }
   }
   if (votes.empty()) {
-    throw InputError(path.string() +
-                     ": expected images in image_0, found none that can be decoded");
+    throw InputError(fmt::format("{}: expected images in {}, found none that can be decoded",
+                                 path.string(),
+                                 layout.Camera(layout.cameras.left)));
   }
   return std::max_element(votes.begin(),
                           votes.end(),
@@ -117,41 +90,72 @@ ImageSize SizeOfMost(const fs::path& path, const std::vector<FrameFiles>& files)
       ->first;
 }
 
-CameraFile ReadCalibration(const fs::path& path,
-                           const DatasetOptions& options,
-                           const std::vector<FrameFiles>& files,
-                           SensorKind sensor) {
-  if (std::optional<CameraFile> camera = GivenCamera(path, options, sensor)) return *camera;
-  const fs::path file = path / "calib.txt";
-  CameraFile camera{{}, file.string() + " (KITTI calib.txt)"};
-  Calibration& calibration = camera.calibration;
-  const Projection left = ReadProjection(file, "P0");
-  const auto [width, height] = SizeOfMost(path, files);
-  calibration.left = ToCamera(left, file, width, height);
-  calibration.rectified = true;
-  if (sensor == SensorKind::kStereo) {
-    const Projection right = ReadProjection(file, "P1");
-    calibration.right = ToCamera(right, file, width, height);
-    const double baseline = -right.matrix(0, 3) / right.matrix(0, 0);
-    if (!(baseline > 0) || right.matrix.leftCols<3>() != left.matrix.leftCols<3>()) {
-      const bool same = right.matrix.leftCols<3>() == left.matrix.leftCols<3>();
-      FailAt(file,
-             right.line,
-             "P1 to be P0 with a baseline above 0",
-             same ? fmt::format("a baseline of {:g} m", baseline)
-                  : fmt::format("fx {:g} fy {:g} cx {:g} cy {:g} beside fx {:g} fy {:g} cx {:g} "
-                                "cy {:g}",
-                                right.matrix(0, 0),
-                                right.matrix(1, 1),
-                                right.matrix(0, 2),
-                                right.matrix(1, 2),
-                                left.matrix(0, 0),
-                                left.matrix(1, 1),
-                                left.matrix(0, 2),
-                                left.matrix(1, 2)));
-    }
-    calibration.right_from_left.translation.x() = -baseline;
-    Refuse(PairFault(calibration), file, right.line);
+// Returns calib_cam_to_cam.txt of the drive: it lies in the folder of the day, beside the drives.
+fs::path RawCalibrationFile(const fs::path& path) {
+  constexpr const char* kName = "calib_cam_to_cam.txt";
+  for (const fs::path& file : {path / kName, path / ".." / kName}) {
+    if (PathExists(file)) return file;
+  }
+  throw InputError(
+      fmt::format("{}: expected {} in this folder or the one around it, found none; "
+                  "--camera FILE takes another calibration",
+                  path.string(),
+                  kName));
+}
+
+// What the name of a drive says of its images.
+KittiImages ImagesByName(const fs::path& path) {
+  const std::string name = fs::absolute(path / ".").lexically_normal().parent_path().filename();
+  return name.ends_with("_extract") ? KittiImages::kAsTaken : KittiImages::kRectified;
+}
+
+// The calibration of a sequence.
+struct KittiCamera {
+  CameraFile file;
+  std::string images;  // what the images are, for people; may be empty
+  // Poses of KITTI are of the rectified camera 0. Whether that is another than the left one.
+  GroundTruth::Frame truth = GroundTruth::Frame::kCamera;
+};
+
+// Reads the calibration of the data. `cameras` may be fewer than there are.
+KittiCamera ReadOwnCalibration(const fs::path& path,
+                               const KittiLayout& layout,
+                               const KittiCameras& cameras,
+                               const std::vector<FrameFiles>& files) {
+  KittiCamera camera;
+  const fs::path file = layout.raw ? RawCalibrationFile(path) : path / "calib.txt";
+  const ImageSize size = SizeOfMost(path, layout, files);
+  Calibration& calibration = camera.file.calibration;
+  if (layout.raw) {
+    KittiImages images = KittiImages::kRectified;
+    calibration = ReadKittiRawCalibration(file, cameras, size, ImagesByName(path), &images);
+    camera.file.source = file.string() + " (KITTI calib_cam_to_cam.txt)";
+    camera.images = images == KittiImages::kRectified ? ", rectified" : ", as taken";
+  } else {
+    calibration = ReadKittiCalibration(file, cameras, size);
+    camera.file.source = file.string() + " (KITTI calib.txt)";
+  }
+  if (calibration.body_from_left) camera.truth = GroundTruth::Frame::kBody;
+  return camera;
+}
+
+KittiCamera ReadCalibration(const fs::path& path,
+                            const DatasetOptions& options,
+                            const KittiLayout& layout,
+                            const KittiCameras& cameras,
+                            const std::vector<FrameFiles>& files,
+                            SensorKind sensor) {
+  std::optional<CameraFile> given = GivenCamera(path, options, sensor);
+  if (!given) return ReadOwnCalibration(path, layout, cameras, files);
+  KittiCamera camera{*std::move(given), "", GroundTruth::Frame::kCamera};
+  if (layout.grey()) return camera;
+  camera.truth = GroundTruth::Frame::kBody;
+  std::optional<Rigid3>& body_from_left = camera.file.calibration.body_from_left;
+  if (body_from_left) return camera;
+  try {  // the camera that was given stands alone where the data has no calibration of its own
+    const KittiCameras left = {cameras.left, std::nullopt};
+    body_from_left = ReadOwnCalibration(path, layout, left, files).file.calibration.body_from_left;
+  } catch (const InputError&) {
   }
   return camera;
 }
@@ -175,56 +179,92 @@ fs::path ImageAt(const std::map<std::size_t, fs::path>& images,
                  std::size_t i) {
   const auto found = images.find(i);
   if (found != images.end()) return found->second;
-  const std::string extension =
-      images.empty() ? ".png" : images.begin()->second.extension().string();
-  return folder / fmt::format("{:06}{}", i, extension);
+  if (images.empty()) return folder / fmt::format("{:06}.png", i);
+  const fs::path& like = images.begin()->second;
+  return folder /
+         fmt::format("{:0{}}{}", i, like.stem().string().size(), like.extension().string());
 }
 
-std::optional<GroundTruth> ReadGroundTruth(const fs::path& path,
-                                           const std::vector<std::int64_t>& stamps_ns) {
-  const std::optional<fs::path> file = KittiPosesFile(path);
-  if (!file) return std::nullopt;
-  return GroundTruth{ReadKittiPoses(*file, stamps_ns), GroundTruth::Frame::kCamera, *file};
+// Reads the times of the rows of image_00/timestamps.txt: "2011-09-26 13:02:25.964389445".
+std::vector<StampedRow> ReadTimestamps(const fs::path& file) {
+  std::vector<StampedRow> times;
+  for (const TextRow& row : ReadRows(file, ' ')) {
+    const std::optional<std::int64_t> stamp =
+        row.fields.size() == 2 ? ParseDateAndTime(row.fields[0], row.fields[1]) : std::nullopt;
+    if (!stamp) {
+      std::string found;
+      for (const std::string& field : row.fields) found += (found.empty() ? "" : " ") + field;
+      FailAt(file,
+             row.line,
+             "a date and a time such as 2011-09-26 13:02:25.964389445",
+             InQuotes(found));
+    }
+    times.push_back({*stamp, row.line});
+  }
+  if (times.empty()) throw InputError(file.string() + ": expected times, found no rows");
+  return times;
+}
+
+// Returns the files of the images that belong to the rows of the list of times.
+std::vector<FrameFiles> ListFrames(const fs::path& path,
+                                   const KittiLayout& layout,
+                                   const KittiCameras& cameras,
+                                   std::size_t rows) {
+  const fs::path folder = layout.Images(path, cameras.left);
+  const std::map<std::size_t, fs::path> left = NumberedImages(folder);
+  if (left.empty()) throw InputError(folder.string() + ": expected images, found none");
+  if (left.rbegin()->first >= rows) {
+    throw InputError(fmt::format("{}: expected a time for each image up to {}, found {} times",
+                                 layout.Times(path).string(),
+                                 left.rbegin()->second.filename().string(),
+                                 rows));
+  }
+  std::map<std::size_t, fs::path> right;
+  if (cameras.right) right = NumberedImages(layout.Images(path, *cameras.right));
+  std::vector<FrameFiles> files;
+  for (std::size_t i = 0; i < rows; ++i) {
+    FrameFiles frame{ImageAt(left, folder, i), std::nullopt, std::nullopt};
+    if (cameras.right) frame.right = ImageAt(right, layout.Images(path, *cameras.right), i);
+    files.push_back(std::move(frame));
+  }
+  return files;
+}
+
+// "odometry, grey cameras 0 and 1".
+std::string Describe(const KittiLayout& layout, const KittiCameras& cameras, const char* images) {
+  const std::string color = layout.grey() ? "grey" : "colour";
+  return fmt::format("{}{}, {} ", layout.raw ? "raw" : "odometry", images, color) +
+         (cameras.right ? fmt::format("cameras {} and {}", cameras.left, *cameras.right)
+                        : fmt::format("camera {}", cameras.left));
 }
 
 }  // namespace
 
-std::optional<fs::path> KittiPosesFile(const fs::path& sequence) {
+std::vector<fs::path> KittiPosesFiles(const fs::path& sequence) {
   const std::string name = fs::absolute(sequence / ".").lexically_normal().parent_path().filename();
-  for (const fs::path& file :
-       {sequence / "poses.txt", sequence / ".." / ".." / "poses" / (name + ".txt")}) {
-    if (PathExists(file)) return file;
-  }
-  return std::nullopt;
+  return {sequence / "poses.txt", sequence / ".." / ".." / "poses" / (name + ".txt")};
 }
 
 std::unique_ptr<Dataset> OpenKitti(const fs::path& path, const DatasetOptions& options) {
+  const KittiLayout layout = FindLayout(path);
   std::vector<SensorKind> available = {SensorKind::kMono};
-  if (PathExists(path / "image_1")) available.insert(available.begin(), SensorKind::kStereo);
+  if (layout.cameras.right) available.insert(available.begin(), SensorKind::kStereo);
   DatasetInfo info = DescribeDataset(path, DatasetFormat::kKitti, std::move(available), options);
-  const bool stereo = info.sensor == SensorKind::kStereo;
+  KittiCameras cameras = layout.cameras;
+  if (info.sensor == SensorKind::kMono) cameras.right.reset();
 
-  info.stamps_ns = ReadKittiTimes(path / "times.txt");
-  const std::map<std::size_t, fs::path> left = NumberedImages(path / "image_0");
-  if (left.empty()) {
-    throw InputError((path / "image_0").string() + ": expected images, found none");
-  }
-  if (left.rbegin()->first >= info.stamps_ns.size()) {
-    throw InputError(fmt::format("{}: expected a time for each image up to {}, found {} times",
-                                 (path / "times.txt").string(),
-                                 left.rbegin()->second.filename().string(),
-                                 info.stamps_ns.size()));
-  }
-  std::map<std::size_t, fs::path> right;
-  if (stereo) right = NumberedImages(path / "image_1");
+  const std::vector<StampedRow> times =
+      layout.raw ? ReadTimestamps(layout.Times(path)) : ReadKittiTimes(layout.Times(path));
+  const std::vector<FrameFiles> rows = ListFrames(path, layout, cameras, times.size());
   std::vector<FrameFiles> files;
-  for (std::size_t i = 0; i < info.stamps_ns.size(); ++i) {
-    FrameFiles frame{ImageAt(left, path / "image_0", i), std::nullopt, std::nullopt};
-    if (stereo) frame.right = ImageAt(right, path / "image_1", i);
-    files.push_back(std::move(frame));
+  for (const std::size_t row : OrderOfTime(layout.Times(path), times, info.notes)) {
+    info.stamps_ns.push_back(times[row].stamp_ns);
+    files.push_back(rows[row]);
   }
-  UseCamera(ReadCalibration(path, options, files, info.sensor), info);
-  info.ground_truth = ReadGroundTruth(path, info.stamps_ns);
+  KittiCamera camera = ReadCalibration(path, options, layout, cameras, files, info.sensor);
+  UseCamera(std::move(camera.file), info);
+  info.layout = Describe(layout, cameras, camera.images.c_str());
+  AddGroundTruth({KittiPosesFiles(path), camera.truth, &times}, options, info);
   return MakeImageDataset(std::move(info), std::move(files));
 }
 

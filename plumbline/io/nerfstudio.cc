@@ -25,7 +25,8 @@ void WriteNerfstudioTransforms(const std::filesystem::path& path,
                                const SavedMap& saved,
                                const std::string& images,
                                const std::map<KeyFrameId, std::string>& names,
-                               const std::string& ply_file) {
+                               const std::string& ply_file,
+                               std::span<const PosedImage> others) {
   constexpr double kHalfPixel = 0.5;
   const RectifiedCamera& c = saved.camera;
   Json json = {{"camera_model", "OPENCV"},
@@ -42,12 +43,16 @@ void WriteNerfstudioTransforms(const std::filesystem::path& path,
                {"ply_file_path", ply_file}};
   json["frames"] = Json::array();
   const Eigen::Vector4d opengl_axes(1, -1, -1, 1);
-  for (const auto& [id, keyframe] : saved.map.keyframes()) {
-    const Eigen::Matrix4d world_from_camera = Inverse(keyframe.frame.cam_from_world).Matrix();
+  const auto add = [&](const std::string& name, const Rigid3& cam_from_world) {
+    const Eigen::Matrix4d world_from_camera = Inverse(cam_from_world).Matrix();
     json["frames"].push_back(
-        {{"file_path", images + "/" + names.at(id)},
+        {{"file_path", images + "/" + name},
          {"transform_matrix", RowsOf(world_from_camera * opengl_axes.asDiagonal())}});
+  };
+  for (const auto& [id, keyframe] : saved.map.keyframes()) {
+    add(names.at(id), keyframe.frame.cam_from_world);
   }
+  for (const PosedImage& other : others) add(other.name, other.cam_from_world);
   WriteFileAtomically(path, json.dump(2) + "\n");
 }
 

@@ -3,17 +3,19 @@
 #pragma once
 
 #include "plumbline/io/map_io.h"
+#include "plumbline/io/posed_image.h"
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 
 namespace plumbline {
 
-// Writes keyframes as a data set of nerfstudio (transforms.json): one camera without distortion,
-// pixel centres at (0.5, 0.5), and for each keyframe its image and the pose world_from_camera of
-// the rectified left camera, with the axes of OpenGL (x right, y up, z back). The world stays that
-// of the map.
+// Writes keyframes, and other frames behind them, as a data set of nerfstudio (transforms.json):
+// one camera without distortion, pixel centres at (0.5, 0.5), and for each of them its image and
+// the pose world_from_camera of the rectified left camera, with the axes of OpenGL (x right, y up,
+// z back). The world stays that of the map.
 //
 //   images    folder of the images, relative to the file
 //   names     names of the images of all keyframes
@@ -22,6 +24,7 @@ void WriteNerfstudioTransforms(const std::filesystem::path& path,
                                const SavedMap& saved,
                                const std::string& images,
                                const std::map<KeyFrameId, std::string>& names,
-                               const std::string& ply_file);
+                               const std::string& ply_file,
+                               std::span<const PosedImage> others = {});
 
 }  // namespace plumbline

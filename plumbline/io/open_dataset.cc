@@ -4,61 +4,34 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
-#include "plumbline/base/printable.h"
 #include "plumbline/io/euroc.h"
+#include "plumbline/io/frame_preparation.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/image_folder.h"
 #include "plumbline/io/kitti.h"
 #include "plumbline/io/recorded_dataset.h"
+#include "plumbline/io/rosbag2_files.h"
 #include "plumbline/io/tum_rgbd.h"
 #include "plumbline/io/video.h"
 #include "plumbline/recording/mcap.h"
 #include "plumbline/recording/ros_bag.h"
+#include "plumbline/recording/sqlite_bag.h"
 
 #include <array>
 #include <cstdint>
 #include <fstream>
-#include <set>
 #include <span>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace plumbline {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Refuses a file of ROS 2 that another recorder than that of MCAP wrote, whatever its name. It
-// would pass for a damaged bag or for a video.
-void RefuseSqliteFile(const fs::path& path) {
-  if (!FileBeginsWith(path, "SQLite format 3")) return;
-  throw InputError(path.string() +
-                   ": expected MCAP, found a ROS 2 bag of SQLite; ros2 bag convert makes one");
-}
-
-// Refuses a folder as `ros2 bag` writes it, and names the file in it that is to be given.
-void RefuseRos2Folder(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_regular_file(path / "metadata.yaml", error)) return;
-  std::set<std::string> names;  // in the same order everywhere
-  for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
-    names.insert(entry.path().filename().string());
-  }
-  for (const std::string& name : names) {
-    if (name.ends_with(".mcap")) {
-      throw InputError(path.string() + ": expected a file, found a folder of ros2 bag; give " +
-                       Printable(name) + " in it");
-    }
-  }
-  for (const std::string& name : names) {
-    if (name.ends_with(".db3")) RefuseSqliteFile(path / name);
-  }
-}
-
 DatasetFormat DetectFormat(const fs::path& path) {
-  RefuseSqliteFile(path);
   if (const std::optional<DatasetFormat> format = FindFormat(path)) return *format;
-  RefuseRos2Folder(path);
   throw InputError(path.string() +
                    ": expected a EuRoC folder (mav0/), a TUM or ICL folder (rgb.txt), a KITTI "
                    "sequence (image_0/, calib.txt) or a folder of images, found none of them");
@@ -72,14 +45,22 @@ DatasetFormat FormatOfFile(const fs::path& path) {
   const std::span<const std::uint8_t> bytes(begin.data(), static_cast<std::size_t>(file.gcount()));
   if (BeginsAsBag(bytes)) return DatasetFormat::kBag;
   if (BeginsAsMcap(bytes)) return DatasetFormat::kMcap;
+  if (BeginsAsSqlite(bytes)) return DatasetFormat::kRosbag2;
   if (path.extension() == ".bag") return DatasetFormat::kBag;
   if (path.extension() == ".mcap") return DatasetFormat::kMcap;
+  if (IsRosbag2Name(path.filename().string())) return DatasetFormat::kRosbag2;
   return DatasetFormat::kVideo;
 }
 
-bool IsFolder(DatasetFormat format) {
-  return format != DatasetFormat::kVideo && format != DatasetFormat::kBag &&
-         format != DatasetFormat::kMcap;
+bool IsRecording(DatasetFormat format) {
+  return format == DatasetFormat::kBag || format == DatasetFormat::kMcap ||
+         format == DatasetFormat::kRosbag2;
+}
+
+// A recording of ROS 2 may be either.
+bool IsFolder(DatasetFormat format, bool folder) {
+  if (format == DatasetFormat::kRosbag2) return folder;
+  return format != DatasetFormat::kVideo && !IsRecording(format);
 }
 
 }  // namespace
@@ -90,12 +71,19 @@ std::optional<DatasetFormat> FindFormat(const fs::path& path) {
   const auto has = [&](const char* name) { return fs::exists(path / name, error); };
   if (has("mav0") || has("cam0")) return DatasetFormat::kEuroc;
   if (has("rgb.txt")) return DatasetFormat::kTum;
-  if (has("image_0") || has("calib.txt")) return DatasetFormat::kKitti;
+  if (has("image_0") || has("image_2") || has("calib.txt")) return DatasetFormat::kKitti;
+  if (has("image_00/timestamps.txt") || has("image_02/timestamps.txt"))
+    return DatasetFormat::kKitti;
+  if (IsRosbag2Folder(path)) return DatasetFormat::kRosbag2;
   if (!ListImages(path).empty()) return DatasetFormat::kImages;
   return std::nullopt;
 }
 
-std::unique_ptr<Dataset> OpenDataset(const fs::path& path, const DatasetOptions& options) {
+namespace {
+
+// OpenDataset before PrepareFrames, but for videos and folders of images: these know how their
+// images ask to be turned, and are prepared already.
+std::unique_ptr<Dataset> OpenByFormat(const fs::path& path, const DatasetOptions& options) {
   std::error_code error;
   if (!fs::exists(path, error)) throw InputError(path.string() + ": no such file or folder");
   const bool folder = fs::is_directory(path, error);
@@ -103,13 +91,13 @@ std::unique_ptr<Dataset> OpenDataset(const fs::path& path, const DatasetOptions&
     throw InputError(path.string() + ": expected a folder or a file, found " + KindOf(path));
   }
   const DatasetFormat format = options.format ? *options.format : DetectFormat(path);
-  if (folder != IsFolder(format)) {
+  if (folder != IsFolder(format, folder)) {
     const bool video = format == DatasetFormat::kVideo;
     throw InputError(path.string() + (folder ? (video ? ": expected a video file, found a folder"
                                                       : ": expected a file, found a folder")
                                              : ": expected a folder, found a file"));
   }
-  if (!options.topics.empty() && format != DatasetFormat::kBag && format != DatasetFormat::kMcap) {
+  if (!options.topics.empty() && !IsRecording(format)) {
     throw InputError(path.string() + ": expected a bag or an MCAP file to choose topics of");
   }
   switch (format) {
@@ -125,11 +113,21 @@ std::unique_ptr<Dataset> OpenDataset(const fs::path& path, const DatasetOptions&
       return OpenVideo(path, options);
     case DatasetFormat::kBag:
     case DatasetFormat::kMcap:
+    case DatasetFormat::kRosbag2:
       return OpenRecording(path, format, options);
     case DatasetFormat::kStream:
       break;
   }
   throw BugError("a format without a reader");
+}
+
+}  // namespace
+
+std::unique_ptr<Dataset> OpenDataset(const fs::path& path, const DatasetOptions& options) {
+  auto dataset = OpenByFormat(path, options);
+  const DatasetFormat format = dataset->info().format;
+  if (format == DatasetFormat::kVideo || format == DatasetFormat::kImages) return dataset;
+  return PrepareFrames(std::move(dataset), {TurnOf(options.rotate)}, options.max_width);
 }
 
 }  // namespace plumbline

@@ -13,7 +13,7 @@
 namespace plumbline {
 namespace {
 
-constexpr int kPointGrey = 128;
+constexpr Color kPointGrey{128, 128, 128};
 constexpr std::string_view kLineColor = "255 140 0";
 
 // Returns a number with fixed decimals, without a minus sign before zero.
@@ -32,8 +32,8 @@ std::string Position(const Eigen::Vector3d& p) {
 void WritePly(const std::filesystem::path& path,
               std::span<const Eigen::Vector3d> points,
               std::span<const Segment3> segments,
-              std::span<const std::uint8_t> greys) {
-  PLUMBLINE_CHECK(greys.empty() || greys.size() == points.size(), "a grey for each point");
+              std::span<const Color> colors) {
+  PLUMBLINE_CHECK(colors.empty() || colors.size() == points.size(), "a colour for each point");
   std::string out = fmt::format(
       "ply\nformat ascii 1.0\ncomment Plumbline map, metres (of a single camera: units of its "
       "own)\nelement vertex {}\n"
@@ -43,8 +43,8 @@ void WritePly(const std::filesystem::path& path,
       points.size() + 2 * segments.size(),
       segments.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const int grey = greys.empty() ? kPointGrey : greys[i];
-    out += fmt::format("{} {} {} {}\n", Position(points[i]), grey, grey, grey);
+    const Color color = colors.empty() ? kPointGrey : colors[i];
+    out += fmt::format("{} {} {} {}\n", Position(points[i]), color.r, color.g, color.b);
   }
   for (const Segment3& segment : segments) {
     out += fmt::format("{} {}\n", Position(segment.start), kLineColor);

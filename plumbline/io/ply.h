@@ -3,8 +3,8 @@
 #pragma once
 
 #include "plumbline/geometry/segment.h"
+#include "plumbline/image/color_image.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <span>
 
@@ -14,12 +14,12 @@ namespace plumbline {
 
 // Writes points and line segments as an ASCII PLY file: the points grey, then the two ends of each
 // segment in orange, joined by an `edge` element. Coordinates in metres, 6 decimals. The same input
-// gives the same bytes. `greys`, where not empty, is how bright each point is. Throws InputError
-// when the file cannot be written.
+// gives the same bytes. `colors`, where not empty, has that of each point. Throws InputError when
+// the file cannot be written.
 void WritePly(const std::filesystem::path& path,
               std::span<const Eigen::Vector3d> points,
               std::span<const Segment3> segments,
-              std::span<const std::uint8_t> greys = {});
+              std::span<const Color> colors = {});
 
 // Writes line segments as a Wavefront OBJ file of `l` elements. Coordinates and failures are as of
 // WritePly.

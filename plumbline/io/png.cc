@@ -7,6 +7,7 @@
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/io/atomic_file.h"
 
+#include <array>
 #include <cmath>
 
 #include <opencv2/core.hpp>
@@ -57,6 +58,14 @@ std::string EncodeOverlayPng(const GrayImage& image, const Overlay& overlay) {
 void WriteGrayPng(const std::filesystem::path& path, const GrayImage& image) {
   PLUMBLINE_CHECK(!image.empty(), "an image without pixels");
   WriteFileAtomically(path, EncodePng(AsMat(image)));
+}
+
+void WriteColorPng(const std::filesystem::path& path, const ColorImage& image) {
+  if (IsGray(image)) return WriteGrayPng(path, image.red);
+  const std::array<cv::Mat, 3> channels = {AsMat(image.blue), AsMat(image.green), AsMat(image.red)};
+  cv::Mat merged;
+  cv::merge(channels.data(), channels.size(), merged);
+  WriteFileAtomically(path, EncodePng(merged));
 }
 
 void WriteDepthPng(const std::filesystem::path& path, const DepthImage& depth, double factor) {

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "plumbline/geometry/segment.h"
+#include "plumbline/image/color_image.h"
 #include "plumbline/image/image.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -13,10 +13,6 @@
 #include <Eigen/Core>
 
 namespace plumbline {
-
-struct Color {
-  std::uint8_t r = 0, g = 0, b = 0;
-};
 
 struct OverlayPoint {
   Eigen::Vector2d px;
@@ -40,6 +36,8 @@ std::string EncodeOverlayPng(const GrayImage& image, const Overlay& overlay);
 
 // Writes a grey image as PNG. All functions below throw InputError when the file cannot be written.
 void WriteGrayPng(const std::filesystem::path& path, const GrayImage& image);
+// Writes an image in colour as PNG, of one channel where red, green and blue are the same.
+void WriteColorPng(const std::filesystem::path& path, const ColorImage& image);
 // Writes depth as 16-bit PNG, rounded depth * factor; 0 where it does not fit.
 void WriteDepthPng(const std::filesystem::path& path, const DepthImage& depth, double factor);
 void WriteOverlayPng(const std::filesystem::path& path,

@@ -5,8 +5,8 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/geometry/plausible_calibration.h"
+#include "plumbline/io/named_distortion.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Core>
@@ -28,29 +28,10 @@ void Check(const RecordedCamera& camera, const std::optional<std::string>& fault
   if (fault) Fail(camera, *fault);
 }
 
-bool AllZero(const std::vector<double>& numbers) {
-  return std::all_of(numbers.begin(), numbers.end(), [](double number) { return number == 0; });
-}
-
 void SetDistortion(const RecordedCamera& camera, CameraIntrinsics& intrinsics) {
-  const std::string& model = camera.message.distortion_model;
-  const std::vector<double>& d = camera.message.d;
-  std::size_t used = 0;
-  if (model == "plumb_bob" && (d.size() == 4 || d.size() == 5)) {
-    intrinsics.model = DistortionModel::kRadTan;
-    used = d.size();
-  } else if (model == "equidistant" && d.size() == 4) {
-    intrinsics.model = DistortionModel::kEquidistant;
-    used = d.size();
-  } else if (!AllZero(d) || model == "equidistant") {
-    Fail(
-        camera,
-        fmt::format("expected distortion plumb_bob of 4 or 5 numbers or equidistant of 4, found {} "
-                    "of {}: give --camera FILE",
-                    InQuotes(model),
-                    d.size()));
-  }
-  std::copy_n(d.begin(), used, intrinsics.distortion.begin());
+  const CalibrationMessage& message = camera.message;
+  const auto fault = SetNamedDistortion(message.distortion_model, message.d, intrinsics);
+  if (fault) Fail(camera, *fault + ": give --camera FILE");
 }
 
 Camera CameraOf(const RecordedCamera& camera) {

@@ -20,9 +20,9 @@ struct RecordedCamera {
 // Whether the camera was calibrated. Drivers send zeros if not.
 bool IsCalibrated(const CalibrationMessage& message);
 
-// Returns the calibration that sensor_msgs/CameraInfo (or foxglove.CameraCalibration) describes:
-// plumb_bob (k1 k2 p1 p2 k3), equidistant (k1 k2 k3 k4) or no distortion. In a pair, R turns each
-// camera into the rectified pair and P of the right one has the baseline: -P[3] / P[0], metres.
+// Returns the calibration that sensor_msgs/CameraInfo (or foxglove.CameraCalibration) describes,
+// with a distortion that SetNamedDistortion knows. In a pair, R turns each camera into the
+// rectified pair and P of the right one has the baseline: -P[3] / P[0], metres.
 //
 // Throws InputError "source: ..." for other models, binned or cut images, a pair in which only one
 // camera has rectified images or P has no baseline, and numbers that no camera has.

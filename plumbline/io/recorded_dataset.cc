@@ -4,6 +4,7 @@
 
 #include "plumbline/base/printable.h"
 #include "plumbline/io/camera_file.h"
+#include "plumbline/io/ground_truth.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/raw_pixels.h"
 #include "plumbline/io/recorded_calibration.h"
@@ -73,8 +74,9 @@ class RecordedDataset : public Dataset {
  public:
   RecordedDataset(DatasetInfo info,
                   std::unique_ptr<Recording> file,
-                  std::vector<FrameMessages> frames)
-      : Dataset(std::move(info)), file_(std::move(file)), frames_(std::move(frames)) {}
+                  std::vector<FrameMessages> frames,
+                  std::optional<int> bits)
+      : Dataset(std::move(info)), file_(std::move(file)), frames_(std::move(frames)), bits_(bits) {}
 
   Expected<SensorFrame, ImageFailure> Read(std::size_t i) const override {
     const FrameMessages& messages = frames_.at(i);
@@ -99,6 +101,16 @@ class RecordedDataset : public Dataset {
     return frame;
   }
 
+  Expected<ColorImage, ImageFailure> ReadColor(std::size_t i) const override {
+    const ImageSize size = SizeOf(calibration().left);
+    auto image = ReadImage<ColorImage>(frames_.at(i).left, [&](const ImageMessage& message) {
+      if (message.compressed) return DecodeColorImage(info().path, message.data, Wanted(size));
+      return ColorOfPixels(info().path, PixelsOf(message), Wanted(size), bits_);
+    });
+    if (!image) return FailureOf(image.error(), size);
+    return image;
+  }
+
  private:
   static ImageSize SizeOf(const Camera& camera) { return {camera.width(), camera.height()}; }
 
@@ -107,9 +119,8 @@ class RecordedDataset : public Dataset {
   }
 
   // Calls `decode` with the message's image.
-  template <class Pixel, class Decode>
-  Expected<Image<Pixel>, ImageFailure> ReadImage(const StoredMessage& place,
-                                                 const Decode& decode) const {
+  template <class Image, class Decode>
+  Expected<Image, ImageFailure> ReadImage(const StoredMessage& place, const Decode& decode) const {
     const Channel& channel = file_->channels()[place.channel];
     const auto bytes = file_->Message(place);
     if (!bytes) return ImageFailure{info().path, Printable(channel.topic) + ": " + bytes.error()};
@@ -117,23 +128,26 @@ class RecordedDataset : public Dataset {
     if (!message) {
       return ImageFailure{info().path, Printable(channel.topic) + ": the file has changed"};
     }
-    Expected<Image<Pixel>, ImageFailure> image = decode(*message);
+    Expected<Image, ImageFailure> image = decode(*message);
     if (image) return image;
     ImageFailure failure = image.error();
+    if (failure.other_size) failure.path += ": " + Printable(channel.topic);
     failure.why = Printable(channel.topic) + ": " + failure.why;
     return failure;
   }
 
   Expected<GrayImage, ImageFailure> Gray(const StoredMessage& place, ImageSize size) const {
-    return ReadImage<std::uint8_t>(place, [&](const ImageMessage& image) {
-      if (image.compressed) return DecodeGrayImage(info().path, image.data, Wanted(size));
-      return GrayOfPixels(info().path, PixelsOf(image), Wanted(size));
+    return ReadImage<GrayImage>(place, [&](const ImageMessage& image) {
+      if (image.compressed) {
+        return DecodeGrayImage(info().path, image.data, Wanted(size), bits_.value_or(16));
+      }
+      return GrayOfPixels(info().path, PixelsOf(image), Wanted(size), bits_);
     });
   }
 
   Expected<DepthImage, ImageFailure> Depth(const StoredMessage& place, ImageSize size) const {
     const double factor = calibration().depth_factor.value_or(1);
-    return ReadImage<float>(
+    return ReadImage<DepthImage>(
         place, [&](const ImageMessage& image) -> Expected<DepthImage, ImageFailure> {
           if (!image.compressed) {
             return DepthOfPixels(info().path, PixelsOf(image), factor, Wanted(size));
@@ -151,6 +165,7 @@ class RecordedDataset : public Dataset {
 
   std::unique_ptr<Recording> file_;
   std::vector<FrameMessages> frames_;
+  std::optional<int> bits_;  // of grey levels of 16 bits, how many are used
 };
 
 std::vector<std::int64_t> StampsOf(const RecordedTopic& topic) {
@@ -193,10 +208,12 @@ std::vector<FrameMessages> Join(const RecordedTopic& left,
   return frames;
 }
 
-// Notes which topics are read, and which of their images are not.
-void NoteTopics(const std::vector<const RecordedTopic*>& topics, DatasetInfo& info) {
+// Notes which topics are read, which are not, and which of the images are not.
+void NoteTopics(const RecordedTopics& topics,
+                const std::vector<const RecordedTopic*>& used,
+                DatasetInfo& info) {
   std::vector<std::string> names;
-  for (const RecordedTopic* topic : topics) {
+  for (const RecordedTopic* topic : used) {
     names.push_back(topic->name);
     if (topic->without_stamp > 0) {
       info.notes.push_back(
@@ -204,6 +221,10 @@ void NoteTopics(const std::vector<const RecordedTopic*>& topics, DatasetInfo& in
                       "taken for it",
                       topic->without_stamp,
                       topic->name));
+    }
+    if (topic->broken > 0) {
+      info.notes.push_back(fmt::format(
+          "{} messages of {} are damaged and are left out", topic->broken, topic->name));
     }
     if (topic->again > 0) {
       info.notes.push_back(
@@ -214,6 +235,13 @@ void NoteTopics(const std::vector<const RecordedTopic*>& topics, DatasetInfo& in
     }
   }
   info.notes.push_back(fmt::format("topics: {}", fmt::join(names, ", ")));
+  std::vector<const RecordedTopic*> others;
+  for (const RecordedTopic& topic : topics.images) {
+    if (std::find(used.begin(), used.end(), &topic) == used.end()) others.push_back(&topic);
+  }
+  if (!others.empty()) {
+    info.notes.push_back("topics of images that are not used: " + ListOfTopics(others));
+  }
 }
 
 // Notes where depth is in the frame of another camera: drivers leave it so unless they are asked to
@@ -228,12 +256,47 @@ void NoteFrames(const RecordedTopic& image, const RecordedTopic& depth, DatasetI
       Printable(image.frame)));
 }
 
-// Calls NoteBits for the image of a message.
-void NoteBitsOf(const Recording& file, const StoredMessage& place, DatasetInfo& info) {
+// Returns the brightest level of an image of 16 bits and one channel; nullopt for others.
+std::optional<int> BrightestOf(const Recording& file, const StoredMessage& place) {
   const auto bytes = file.Message(place);
-  if (!bytes) return;
+  if (!bytes) return std::nullopt;
   const auto image = ParseImage(*FormOf(file.channels()[place.channel]), *bytes);
-  if (image && image->compressed) NoteBits(BrightestOf16Bits(image->data), info);
+  if (!image) return std::nullopt;
+  return image->compressed ? BrightestOf16Bits(image->data) : BrightestOf16Bits(PixelsOf(*image));
+}
+
+// Returns how many of 16 bits the grey levels use: what the brightest level of some frames needs,
+// which lie evenly in the recording, but 8, 10, 12, 14 or 16. ROS has no field that says it. Tells
+// in a note. Returns nullopt where the first frame has no such levels.
+std::optional<int> BitsOf(const Recording& file,
+                          const std::vector<FrameMessages>& frames,
+                          DatasetInfo& info) {
+  constexpr std::size_t kFrames = 16;
+  constexpr int kMostBits = 16;
+  int brightest = -1;
+  std::size_t images = 0;
+  const auto look = [&](const StoredMessage& place) {
+    const auto level = BrightestOf(file, place);
+    brightest = std::max(brightest, level.value_or(-1));
+    images += level ? 1 : 0;
+  };
+  for (std::size_t i = 0; i < std::min(kFrames, frames.size()); ++i) {
+    const FrameMessages& frame = frames[i * frames.size() / std::min(kFrames, frames.size())];
+    look(frame.left);
+    if (frame.right) look(*frame.right);
+    if (images == 0) return std::nullopt;
+  }
+  if (images == 0) return std::nullopt;
+  int bits = 8;
+  while (bits < kMostBits && brightest >> bits > 0) bits += 2;
+  info.notes.push_back(fmt::format(
+      "the images have 16 bits, of which {} are used (the brightest level of {} images is "
+      "{}): levels are divided by {}",
+      bits,
+      images,
+      brightest,
+      1 << (bits - 8)));
+  return bits;
 }
 
 std::optional<RecordedCamera> FindCameraInfo(const RecordedTopics& topics,
@@ -259,7 +322,9 @@ std::optional<CameraFile> ReadCalibration(const RecordedTopics& topics,
                                           SensorKind sensor,
                                           const DatasetOptions& options) {
   const fs::path& path = topics.file->path();
-  if (auto given = GivenCamera(path.parent_path(), options, sensor)) return given;
+  std::error_code error;
+  const fs::path folder = fs::is_directory(path, error) ? path : path.parent_path();
+  if (auto given = GivenCamera(folder, options, sensor)) return given;
   const bool stereo = sensor == SensorKind::kStereo;
   const std::optional<RecordedCamera> left = FindCameraInfo(topics, *chosen.left);
   const std::optional<RecordedCamera> right =
@@ -297,11 +362,13 @@ std::unique_ptr<Dataset> OpenRecording(const fs::path& path,
                                        DatasetFormat format,
                                        const DatasetOptions& options) {
   RecordedTopics topics = ReadTopics(path, format);
-  const ChosenTopics chosen = ChooseTopics(topics, options.topics);
+  const ChosenTopics chosen = ChooseTopics(topics, options.topics, options.sensor);
   DatasetInfo info = DescribeDataset(path, format, Available(chosen), options);
+  info.notes = topics.notes;
   const auto camera = ReadCalibration(topics, chosen, info.sensor, options);
   info.has_calibration = false;
   if (camera) UseCamera(*camera, info);
+  AddGroundTruth({}, options, info);
   if (info.sensor == SensorKind::kRgbd) SetDepthFactor(*chosen.depth, info);
   std::vector<FrameMessages> frames;
   std::vector<const RecordedTopic*> used = {chosen.left};
@@ -315,10 +382,11 @@ std::unique_ptr<Dataset> OpenRecording(const fs::path& path,
     frames = Join(*chosen.left, *used.back(), info);
     if (info.sensor == SensorKind::kRgbd) NoteFrames(*chosen.left, *chosen.depth, info);
   }
-  NoteTopics(used, info);
-  if (!frames.empty()) NoteBitsOf(*topics.file, frames.front().left, info);
-  auto dataset =
-      std::make_unique<RecordedDataset>(std::move(info), std::move(topics.file), std::move(frames));
+  NoteTopics(topics, used, info);
+  NoteRate(info);
+  const std::optional<int> bits = BitsOf(*topics.file, frames, info);
+  auto dataset = std::make_unique<RecordedDataset>(
+      std::move(info), std::move(topics.file), std::move(frames), bits);
   CheckFirstFrame(*dataset);
   return dataset;
 }

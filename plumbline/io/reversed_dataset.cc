@@ -40,6 +40,10 @@ class ReversedDataset : public Dataset {
     return frame;
   }
 
+  Expected<ColorImage, ImageFailure> ReadColor(std::size_t i) const override {
+    return recorded_->ReadColor(frames_.at(size() - 1 - i));
+  }
+
  private:
   std::unique_ptr<Dataset> recorded_;
   std::vector<std::size_t> frames_;  // indices in recorded_, ascending

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 
 #include <fmt/core.h>
@@ -35,6 +36,17 @@ std::vector<std::string> Split(std::string_view text, char separator) {
 }
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
+// Returns the number that `count` digits are.
+std::optional<int> Digits(std::string_view text, std::size_t first, std::size_t count) {
+  if (text.size() < first + count) return std::nullopt;
+  int value = 0;
+  for (const char c : text.substr(first, count)) {
+    if (!IsDigit(c)) return std::nullopt;
+    value = 10 * value + (c - '0');
+  }
+  return value;
+}
 
 }  // namespace
 
@@ -148,6 +160,24 @@ std::optional<std::int64_t> ParseSeconds(std::string_view text) {
   const std::optional<std::int64_t> whole = ParseNanoseconds(digits);
   if (!whole || !round_up) return whole;
   return *whole < kLatestStampNs ? std::optional(*whole + 1) : std::nullopt;
+}
+
+std::optional<std::int64_t> ParseDateAndTime(std::string_view date, std::string_view time) {
+  constexpr std::int64_t kMinuteNs = 60'000'000'000;
+  const auto year = Digits(date, 0, 4), month = Digits(date, 5, 2), day = Digits(date, 8, 2);
+  const auto hour = Digits(time, 0, 2), minute = Digits(time, 3, 2), second = Digits(time, 6, 2);
+  if (!year || !month || !day || !hour || !minute || !second) return std::nullopt;
+  const bool form = date.size() == 10 && date[4] == '-' && date[7] == '-' && time[2] == ':' &&
+                    time[5] == ':' && (time.size() == 8 || time[8] == '.');
+  const std::chrono::year_month_day calendar{std::chrono::year(*year),
+                                             std::chrono::month(static_cast<unsigned>(*month)),
+                                             std::chrono::day(static_cast<unsigned>(*day))};
+  if (!form || !calendar.ok() || *hour > 23 || *minute > 59 || *second > 59) return std::nullopt;
+  const std::optional<std::int64_t> seconds_ns = ParseSeconds(time.substr(6));
+  const std::int64_t days = std::chrono::sys_days(calendar).time_since_epoch().count();
+  if (!seconds_ns || days < 0 || days > kLatestStampNs / (24 * 60 * kMinuteNs)) return std::nullopt;
+  const std::int64_t stamp_ns = ((days * 24 + *hour) * 60 + *minute) * kMinuteNs + *seconds_ns;
+  return stamp_ns <= kLatestStampNs ? std::optional(stamp_ns) : std::nullopt;
 }
 
 std::optional<std::int64_t> ParseNanoseconds(std::string_view text) {

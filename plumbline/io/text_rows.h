@@ -60,6 +60,9 @@ constexpr bool IsReadableStamp(std::int64_t stamp_ns) {
 // nanosecond where there are more than nine decimals): "1305031102.175304", "1.037e-01". It must
 // not be before 0 or after kLatestStampNs.
 std::optional<std::int64_t> ParseSeconds(std::string_view text);
+// Returns a date and a time of day, "2011-09-26" and "13:02:25.964389445", as nanoseconds since
+// 1970 as if they were of UTC. Not before 1970, nor after kLatestStampNs.
+std::optional<std::int64_t> ParseDateAndTime(std::string_view date, std::string_view time);
 // Returns a whole number of nanoseconds, which must not be negative and at most kLatestStampNs.
 std::optional<std::int64_t> ParseNanoseconds(std::string_view text);
 

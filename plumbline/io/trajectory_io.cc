@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
+#include "plumbline/geometry/unit_rotation.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/text_rows.h"
 
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include <Eigen/LU>
 #include <fmt/core.h>
@@ -29,7 +31,7 @@ Eigen::Quaterniond QuaternionAt(const path& file,
                                 std::size_t x) {
   const Eigen::Vector3d v = PlaceFields(file, row, x);
   const Eigen::Quaterniond q(NumberField(file, row, w), v.x(), v.y(), v.z());
-  if (std::abs(q.norm() - 1) > 0.01) {
+  if (!IsRotation(q)) {
     FailAt(file, row.line, "a unit quaternion", fmt::format("one of norm {:.6g}", q.norm()));
   }
   return q.normalized();
@@ -81,39 +83,136 @@ Rigid3 PoseOfMatrixRow(const path& file, const TextRow& row) {
   return {Eigen::Quaterniond(rotation).normalized(), translation};
 }
 
-Trajectory ReadStamped(const path& file, TrajectoryFormat format) {
-  const bool tum = format == TrajectoryFormat::kTum;
-  Trajectory poses;
-  std::optional<std::int64_t> previous;
-  for (const TextRow& row : ReadRows(file, tum ? ' ' : ',')) {
-    if (tum ? row.fields.size() != 8 : row.fields.size() < 8) {
-      FailAt(file,
-             row.line,
-             tum ? "8 columns (time tx ty tz qx qy qz qw)"
-                 : "at least 8 columns (time,px,py,pz,qw,qx,qy,qz)",
-             Count(row.fields.size()));
+// The poses of rows that are looked at one by one, and the rows that give none.
+class PoseRows {
+ public:
+  PoseRows(path file, BadRows bad_rows) : file_(std::move(file)), bad_rows_(bad_rows) {}
+
+  // Calls `add`, which reads the row, and counts the row where it cannot be used.
+  template <typename Add>
+  void Take(const TextRow& row, const Add& add) {
+    if (bad_rows_ == BadRows::kRefuse) return add();
+    try {
+      add();
+    } catch (const InputError& error) {
+      if (malformed_.count == 0) first_fault_ = error.what();
+      malformed_.Add(row.line);
     }
-    const std::int64_t stamp = Stamp(file, row, format);
-    CheckStampOrder(file, row.line, previous, stamp);
-    poses.push_back({stamp, PoseOfRow(file, row, format)});
-    previous = stamp;
   }
-  return poses;
+
+  // Adds a pose behind those before it. Fails, or counts the row, where its time does not grow.
+  void Append(const TextRow& row, const StampedPose& pose) {
+    const auto previous = poses_.empty() ? std::nullopt : std::optional(poses_.back().stamp_ns);
+    if (bad_rows_ == BadRows::kRefuse) CheckStampOrder(file_, row.line, previous, pose.stamp_ns);
+    if (previous && pose.stamp_ns <= *previous) {
+      (pose.stamp_ns == *previous ? repeated_ : unsorted_).Add(row.line);
+      return;
+    }
+    poses_.push_back(pose);
+  }
+
+  LoadedTrajectory Finish(TrajectoryFormat format) {
+    std::vector<std::string> notes;
+    if (poses_.empty() && malformed_.count > 0) throw InputError(first_fault_);
+    NoteLeftOut(file_, repeated_, unsorted_, notes);
+    if (malformed_.count > 0) {
+      notes.push_back(
+          first_fault_ +
+          (malformed_.count == 1
+               ? "; this row is left out"
+               : fmt::format("; {} rows that cannot be used are left out", malformed_.count)));
+    }
+    return {format, std::move(poses_), std::move(notes)};
+  }
+
+ private:
+  path file_;
+  BadRows bad_rows_;
+  Trajectory poses_;
+  FaultyRows repeated_, unsorted_, malformed_;
+  std::string first_fault_;
+};
+
+StampedPose ReadPose(const path& file, const TextRow& row, TrajectoryFormat format) {
+  const bool tum = format == TrajectoryFormat::kTum;
+  if (tum ? row.fields.size() != 8 : row.fields.size() < 8) {
+    FailAt(file,
+           row.line,
+           tum ? "8 columns (time tx ty tz qx qy qz qw)"
+               : "at least 8 columns (time,px,py,pz,qw,qx,qy,qz)",
+           Count(row.fields.size()));
+  }
+  const std::int64_t stamp = Stamp(file, row, format);
+  return {stamp, PoseOfRow(file, row, format)};
 }
 
-TrajectoryFormat FormatOf(const path& file) {
+LoadedTrajectory ReadStamped(const path& file, TrajectoryFormat format, BadRows bad_rows) {
+  PoseRows poses(file, bad_rows);
+  for (const TextRow& row : ReadRows(file, format == TrajectoryFormat::kTum ? ' ' : ',')) {
+    poses.Take(row, [&] { poses.Append(row, ReadPose(file, row, format)); });
+  }
+  return poses.Finish(format);
+}
+
+// Reads the rows of a KITTI poses file, each of which has the time in the same row of `times`.
+LoadedTrajectory ReadKitti(const path& file,
+                           const std::vector<StampedRow>& times,
+                           const std::vector<std::size_t>& order,
+                           BadRows bad_rows) {
   const std::vector<TextRow> rows = ReadRows(file, ' ');
-  if (rows.empty()) throw InputError(file.string() + ": expected poses, found no rows");
-  const TextRow& row = rows.front();
+  if (rows.size() != times.size()) {
+    throw InputError(file.string() + ": expected " + std::to_string(times.size()) +
+                     " poses, one for each time, found " + std::to_string(rows.size()));
+  }
+  PoseRows poses(file, bad_rows);
+  for (const std::size_t i : order) {
+    poses.Take(rows[i], [&] {
+      poses.Append(rows[i], {times[i].stamp_ns, PoseOfMatrixRow(file, rows[i])});
+    });
+  }
+  return poses.Finish(TrajectoryFormat::kKitti);
+}
+
+std::optional<TrajectoryFormat> FormatOf(const TextRow& row) {
   for (const std::string& field : row.fields) {
     if (field.find(',') != std::string::npos) return TrajectoryFormat::kEuroc;
   }
   if (row.fields.size() == 12) return TrajectoryFormat::kKitti;
   if (row.fields.size() == 8) return TrajectoryFormat::kTum;
+  return std::nullopt;
+}
+
+// Whether the row begins with a number, as the names of columns do not.
+bool BeginsWithNumber(const TextRow& row) {
+  return ParseNumber(std::string_view(row.fields[0]).substr(0, row.fields[0].find(',')))
+      .has_value();
+}
+
+TrajectoryFormat FormatOf(const path& file, BadRows bad_rows) {
+  const std::vector<TextRow> rows = ReadRows(file, ' ');
+  if (rows.empty()) throw InputError(file.string() + ": expected poses, found no rows");
+  if (bad_rows == BadRows::kLeaveOut) {
+    for (const TextRow& row : rows) {
+      const auto format = FormatOf(row);
+      if (format && BeginsWithNumber(row)) return *format;
+    }
+  }
+  const TextRow& row = rows.front();
+  if (const auto format = FormatOf(row)) return *format;
   FailAt(file,
          row.line,
          "8 columns (TUM), 12 (KITTI) or commas between them (EuRoC)",
          Count(row.fields.size()));
+}
+
+// Returns the file of the times of a KITTI poses file.
+path KittiTimesFile(const path& file) {
+  const path beside = file.parent_path() / "times.txt";
+  const path distributed = file.parent_path() / ".." / "sequences" / file.stem() / "times.txt";
+  std::error_code error;
+  const bool is_distributed =
+      !std::filesystem::exists(beside, error) && std::filesystem::exists(distributed, error);
+  return is_distributed ? distributed : beside;
 }
 
 // Returns what ReadTrajectory would refuse about the pose at place i; nullopt where it accepts it.
@@ -127,6 +226,9 @@ std::optional<std::string> FaultOf(const Trajectory& trajectory, std::size_t i) 
     return fmt::format("expected ascending time stamps, found {} ns after {} ns",
                        stamp_ns,
                        trajectory[i - 1].stamp_ns);
+  }
+  if (const Eigen::Quaterniond& q = trajectory[i].world_from_camera.rotation; !IsRotation(q)) {
+    return fmt::format("expected a quaternion of norm 1, found one of norm {:g}", q.norm());
   }
   for (const double x : trajectory[i].world_from_camera.translation) {
     if (std::abs(x) <= kFarthest) continue;  // false for NaN
@@ -144,43 +246,32 @@ std::string Fixed(double value) {
 
 }  // namespace
 
-LoadedTrajectory ReadTrajectory(const path& file) {
-  const TrajectoryFormat format = FormatOf(file);
-  if (format != TrajectoryFormat::kKitti) return {format, ReadStamped(file, format)};
-  path times = file.parent_path() / "times.txt";
-  const path distributed = file.parent_path() / ".." / "sequences" / file.stem() / "times.txt";
-  std::error_code error;
-  if (!std::filesystem::exists(times, error) && std::filesystem::exists(distributed, error)) {
-    times = distributed;
+LoadedTrajectory ReadTrajectory(const path& file,
+                                BadRows bad_rows,
+                                const std::vector<StampedRow>* times) {
+  const TrajectoryFormat format = FormatOf(file, bad_rows);
+  if (format != TrajectoryFormat::kKitti) return ReadStamped(file, format, bad_rows);
+  std::vector<std::string> notes;
+  if (times != nullptr) {
+    // Whoever has read the times has told of them.
+    return ReadKitti(file, *times, OrderOfTime({}, *times, notes), bad_rows);
   }
-  return {format, ReadKittiPoses(file, ReadKittiTimes(times))};
+  const path times_file = KittiTimesFile(file);
+  const std::vector<StampedRow> rows = ReadKittiTimes(times_file);
+  const std::vector<std::size_t> order = OrderOfTime(times_file, rows, notes);
+  LoadedTrajectory loaded = ReadKitti(file, rows, order, bad_rows);
+  loaded.notes.insert(loaded.notes.begin(), notes.begin(), notes.end());
+  return loaded;
 }
 
-Trajectory ReadKittiPoses(const path& file, const std::vector<std::int64_t>& stamps_ns) {
-  const std::vector<TextRow> rows = ReadRows(file, ' ');
-  if (rows.size() != stamps_ns.size()) {
-    throw InputError(file.string() + ": expected " + std::to_string(stamps_ns.size()) +
-                     " poses, one for each time, found " + std::to_string(rows.size()));
-  }
-  Trajectory poses;
-  poses.reserve(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    poses.push_back({stamps_ns[i], PoseOfMatrixRow(file, rows[i])});
-  }
-  return poses;
-}
-
-std::vector<std::int64_t> ReadKittiTimes(const path& file) {
-  std::vector<std::int64_t> stamps;
+std::vector<StampedRow> ReadKittiTimes(const path& file) {
+  std::vector<StampedRow> times;
   for (const TextRow& row : ReadRows(file, ' ')) {
     if (row.fields.size() != 1) FailAt(file, row.line, "one time", Count(row.fields.size()));
-    const std::int64_t stamp = Stamp(file, row, TrajectoryFormat::kTum);
-    CheckStampOrder(
-        file, row.line, stamps.empty() ? std::nullopt : std::optional(stamps.back()), stamp);
-    stamps.push_back(stamp);
+    times.push_back({Stamp(file, row, TrajectoryFormat::kTum), row.line});
   }
-  if (stamps.empty()) throw InputError(file.string() + ": expected times, found no rows");
-  return stamps;
+  if (times.empty()) throw InputError(file.string() + ": expected times, found no rows");
+  return times;
 }
 
 std::string FormatStamp(std::int64_t stamp_ns) {
@@ -194,7 +285,7 @@ std::string FormatStamp(std::int64_t stamp_ns) {
 std::string FormatTum(const Trajectory& trajectory) {
   std::string text;
   for (const StampedPose& pose : trajectory) {
-    Eigen::Vector4d q = pose.world_from_camera.rotation.coeffs();
+    Eigen::Vector4d q = UnitRotation(pose.world_from_camera.rotation, "a pose").coeffs();
     if (q.w() < 0) q = -q;
     const Eigen::Vector3d& t = pose.world_from_camera.translation;
     text += FormatStamp(pose.stamp_ns);
@@ -207,12 +298,16 @@ std::string FormatTum(const Trajectory& trajectory) {
   return text;
 }
 
-void WriteTum(const path& file, const Trajectory& trajectory) {
+void CheckTum(const path& file, const Trajectory& trajectory) {
   for (std::size_t i = 0; i < trajectory.size(); ++i) {
     if (const auto fault = FaultOf(trajectory, i)) {
       throw WriteError(file, fmt::format("pose {} (from 0): {}", i, *fault));
     }
   }
+}
+
+void WriteTum(const path& file, const Trajectory& trajectory) {
+  CheckTum(file, trajectory);
   WriteFileAtomically(file, FormatTum(trajectory));
 }
 

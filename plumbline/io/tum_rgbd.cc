@@ -5,10 +5,10 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/io/camera_file.h"
+#include "plumbline/io/ground_truth.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/stamp_pairs.h"
 #include "plumbline/io/text_rows.h"
-#include "plumbline/io/trajectory_io.h"
 
 #include <optional>
 #include <string>
@@ -25,8 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::int64_t kMaxDepthDelayNs = 20'000'000;
 
-// Reads rgb.txt or depth.txt: `seconds file`.
-std::vector<ListedImage> ReadList(const fs::path& list) {
+// Reads rgb.txt or depth.txt, `seconds file`, in order of time.
+std::vector<ListedImage> ReadList(const fs::path& list, std::vector<std::string>& notes) {
   std::vector<ListedImage> images;
   for (const TextRow& row : ReadRows(list, ' ')) {
     if (row.fields.size() != 2) {
@@ -37,19 +37,15 @@ std::vector<ListedImage> ReadList(const fs::path& list) {
     }
     const std::optional<std::int64_t> stamp = ParseSeconds(row.fields[0]);
     if (!stamp) FailAt(list, row.line, "a time stamp in seconds", InQuotes(row.fields[0]));
-    CheckStampOrder(list,
-                    row.line,
-                    images.empty() ? std::nullopt : std::optional(images.back().stamp_ns),
-                    *stamp);
-    images.push_back({*stamp, list.parent_path() / row.fields[1]});
+    images.push_back({{*stamp, row.line}, list.parent_path() / row.fields[1]});
   }
   if (images.empty()) throw InputError(list.string() + ": expected images, found no rows");
-  return images;
+  return InOrderOfTime(list, images, notes);
 }
 
 std::vector<std::int64_t> StampsOf(const std::vector<ListedImage>& images) {
   std::vector<std::int64_t> stamps;
-  for (const ListedImage& image : images) stamps.push_back(image.stamp_ns);
+  for (const ListedImage& image : images) stamps.push_back(image.row.stamp_ns);
   return stamps;
 }
 
@@ -58,7 +54,7 @@ std::vector<FrameFiles> JoinDepth(const std::vector<ListedImage>& color,
                                   DatasetInfo& info) {
   std::vector<FrameFiles> files;
   for (const auto& [i, nearest] : PairByStamp(StampsOf(color), StampsOf(depth), kMaxDepthDelayNs)) {
-    info.stamps_ns.push_back(color[i].stamp_ns);
+    info.stamps_ns.push_back(color[i].row.stamp_ns);
     files.push_back({color[i].path, std::nullopt, depth[nearest].path});
   }
   if (files.empty()) {
@@ -110,22 +106,18 @@ std::unique_ptr<Dataset> OpenTum(const fs::path& path, const DatasetOptions& opt
     info.notes.emplace_back("the depth images are not used: no depth_factor in the camera file");
   }
 
-  const std::vector<ListedImage> color = ReadList(path / "rgb.txt");
+  const std::vector<ListedImage> color = ReadList(path / "rgb.txt", info.notes);
   std::vector<FrameFiles> files;
   if (info.sensor == SensorKind::kRgbd) {
     CheckSecondList(path / "depth.txt", "depth");
-    files = JoinDepth(color, ReadList(path / "depth.txt"), info);
+    files = JoinDepth(color, ReadList(path / "depth.txt", info.notes), info);
   } else {
     for (const ListedImage& image : color) {
-      info.stamps_ns.push_back(image.stamp_ns);
+      info.stamps_ns.push_back(image.row.stamp_ns);
       files.push_back({image.path, std::nullopt, std::nullopt});
     }
   }
-  const fs::path truth = path / "groundtruth.txt";
-  if (PathExists(truth)) {
-    info.ground_truth =
-        GroundTruth{ReadTrajectory(truth).poses, GroundTruth::Frame::kCamera, truth};
-  }
+  AddGroundTruth({{path / "groundtruth.txt"}}, options, info);
   return MakeImageDataset(std::move(info), std::move(files));
 }
 

@@ -10,9 +10,13 @@
 namespace plumbline {
 
 // Opens a video file as a monocular sequence. Its calibration is the camera file that the options
-// name, or a camera.yaml beside the video. Times are those of the container; where it has none, or
-// they do not increase, frames are the container's frame rate apart. A rotation that the container
-// asks for is ignored, with a note: the calibration is of the raw pixels.
+// name, or a camera.yaml beside the video.
+//
+// Times are those at which the container shows its frames, since its start. A frame without a time
+// follows the one before by the container's rate, with a note. Frames still without one, and as few
+// others as can be, are left out with a note so that times increase; where more than half of all
+// would be, frames are the container's frame rate apart, with a note. Frames that an edit list cuts
+// away are no frames. Images are turned as the container asks (ChooseTurn).
 //
 // Frames are best read in order: going back means decoding from the start. Throws the errors of
 // OpenDataset, and InputError for a file that is no video, has no frames, or is of another size

@@ -153,6 +153,14 @@ std::string YamlSection::Text(const std::string& key) const {
   return place_->Scalar(key, place_->node[key]);
 }
 
+std::vector<std::string> YamlSection::Texts(const std::string& key) const {
+  const YAML::Node list = place_->node[key];
+  if (!list.IsDefined() || !list.IsSequence()) Fail(key, "expected a list, found none");
+  std::vector<std::string> texts;
+  for (const YAML::Node& item : list) texts.push_back(place_->Scalar(key, item));
+  return texts;
+}
+
 bool YamlSection::Bool(const std::string& key) const {
   const std::string text = Text(key);
   if (text != "true" && text != "false")

@@ -36,6 +36,8 @@ class YamlSection {
   // Returns the keys of this group, in the order of the file.
   std::vector<std::string> Keys() const;
   std::string Text(const std::string& key) const;
+  // Returns a list of texts.
+  std::vector<std::string> Texts(const std::string& key) const;
   bool Bool(const std::string& key) const;
   double Number(const std::string& key) const;
   double Positive(const std::string& key) const;

@@ -56,6 +56,9 @@ struct LiveOptions {
   std::optional<SensorKind> sensor = std::nullopt;   // nullopt: the richest the source offers
   std::optional<std::string> camera = std::nullopt;  // camera file, or name of a built-in camera
   bool side_by_side = false;                         // each image is a left and a right half
+  // As DatasetOptions; nothing but `rotate` turns the images of a live source.
+  Rotation rotate = Rotation::kAuto;
+  std::optional<int> max_width = std::nullopt;
   // How long a camera, stream or pipeline may take until its first frame.
   std::chrono::milliseconds patience = std::chrono::seconds(20);
 };

@@ -88,7 +88,10 @@ struct Plane {
   double factor = 0;  // for depth: value per metre; 0: not told
 
   std::uint32_t step() const { return width * static_cast<std::uint32_t>(PixelBytes(encoding)); }
-  std::size_t bytes() const { return std::size_t{step()} * height; }
+  std::size_t bytes() const {
+    return std::size_t{step()} *
+           static_cast<std::size_t>(PixelRows(encoding, static_cast<int>(height)));
+  }
   ImageSize size() const { return {static_cast<int>(width), static_cast<int>(height)}; }
   RawPixels Pixels(std::span<const std::uint8_t> data) const {
     return {encoding, width, height, step(), false, data};

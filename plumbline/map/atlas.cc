@@ -29,8 +29,8 @@ Map& Atlas::active() { return const_cast<Map&>(std::as_const(*this).active()); }
 
 Map& Atlas::Start() {
   const MapId id = next_map_;
-  next_map_ = MapId{id.value + 1};
   maps_.emplace(id, Map(id));
+  next_map_ = MapId{id.value + 1};
   return Activate(id);
 }
 
@@ -55,9 +55,14 @@ Map& Atlas::Join(MapId kept, MapId gone, const Similarity3& kept_from_gone) {
   Map* map = Find(kept);
   const auto other = maps_.find(gone);
   PLUMBLINE_CHECK(map != nullptr && other != maps_.end() && kept < gone, "maps cannot be joined");
-  map->Absorb(std::move(other->second), kept_from_gone);
-  maps_.erase(other);
   joined_[gone] = kept;
+  try {
+    map->Absorb(Map(other->second), kept_from_gone);
+  } catch (...) {
+    joined_.erase(gone);
+    throw;
+  }
+  maps_.erase(other);
   return active_ == gone ? Activate(kept) : *map;
 }
 

@@ -37,7 +37,7 @@ class Atlas {
 
   // Makes one map of two (Map::Absorb). `kept` takes in `gone`, which leaves the atlas, and becomes
   // the active map if `gone` was. Throws BugError where one of them is missing, or `kept` is not
-  // the older one.
+  // the older one. Where anything is thrown, both are as they were.
   Map& Join(MapId kept, MapId gone, const Similarity3& kept_from_gone);
   // Returns the map that `id` is part of today: itself, or the map that took it in.
   MapId Current(MapId id) const;

@@ -29,6 +29,9 @@ namespace plumbline {
 // Each page knows when it last changed, so that those who follow a large table look only at pages
 // that changed since their last look. A change is an entry that was added, removed, or handed out
 // by a function that is not const, whatever became of it.
+//
+// Where a function throws (std::bad_alloc), no entry has changed. Several changes happen together
+// or not at all under an Undo.
 template <class Id, class T>
 class IdTable {
  public:
@@ -75,6 +78,55 @@ class IdTable {
     std::size_t place_ = 0;  // place of an entry, or kEnd
   };
   using ReverseIterator = std::reverse_iterator<Iterator>;
+
+ private:
+  struct Page;
+
+ public:
+  // Puts a table back as it was when this was made, unless Keep() is called before the end. Each
+  // page and entry that changes meanwhile is copied once, so that pointers to it from before are
+  // invalid. One at a time; meanwhile the table may not be moved, assigned to or swapped.
+  class Undo {
+   public:
+    explicit Undo(IdTable& table)
+        : table_(table),
+          first_page_(table.first_page_),
+          size_(table.size_),
+          changes_(table.changes_) {
+      table_.undo_ = this;
+    }
+    ~Undo() {
+      table_.undo_ = nullptr;
+      if (!keep_) PutBack();
+    }
+    Undo(const Undo&) = delete;
+    Undo& operator=(const Undo&) = delete;
+
+    void Keep() { keep_ = true; }
+
+   private:
+    friend class IdTable;
+
+    // To be called before a page changes.
+    void Remember(std::size_t page) {
+      const CopyOnWrite<Page>& now = table_.pages_[page];
+      const bool known = now && now->changed > changes_;
+      if (!known) pages_.emplace_back(page, now);
+    }
+    void PutBack() noexcept {
+      for (auto page = pages_.rbegin(); page != pages_.rend(); ++page) {
+        table_.pages_[page->first] = std::move(page->second);
+      }
+      table_.first_page_ = first_page_;
+      table_.size_ = size_;
+    }
+
+    IdTable& table_;
+    std::size_t first_page_, size_;
+    std::uint64_t changes_;
+    std::vector<std::pair<std::size_t, CopyOnWrite<Page>>> pages_;  // in the order of the changes
+    bool keep_ = false;
+  };
 
   IdTable() = default;
   // The whole copy counts as changed, later than all changes of the other table. O(pages).
@@ -123,19 +175,15 @@ class IdTable {
   // used for changes until the table is copied.
   T* Find(Id id) {
     if (!contains(id)) return nullptr;
-    Page& page = pages_[PageOf(id)].Own();
-    page.changed = ++changes_;
-    return &page.entries[PlaceInPage(id)].Own().second;
+    return &ToChange(PageOf(id)).entries[PlaceInPage(id)].Own().second;
   }
 
   // Calls change(id, entry) for all entries, in the order of their ids.
   template <class Change>
   void ForEach(const Change& change) {
-    ++changes_;
-    for (CopyOnWrite<Page>& shared : pages_) {
-      if (!shared) continue;
-      Page& page = shared.Own();
-      page.changed = changes_;
+    for (std::size_t n = 0; n < pages_.size(); ++n) {
+      if (!pages_[n]) continue;
+      Page& page = ToChange(n);
       for (std::uint64_t taken = page.taken; taken != 0; taken &= taken - 1) {
         Entry& entry = page.entries[static_cast<std::size_t>(std::countr_zero(taken))].Own();
         change(entry.first, entry.second);
@@ -146,33 +194,33 @@ class IdTable {
   // Adds an entry; an id that is there already keeps its entry.
   void Insert(Id id, T entry) {
     if (contains(id)) return;
+    CopyOnWrite<Entry> added(Entry(id, std::move(entry)));
     if (pages_.size() <= PageOf(id)) pages_.resize(PageOf(id) + 1);
-    CopyOnWrite<Page>& shared = pages_[PageOf(id)];
-    if (!shared) shared = CopyOnWrite(Page());
-    if (size_ == 0 || PageOf(id) < first_page_) first_page_ = PageOf(id);
-    Page& page = shared.Own();
-    page.entries[PlaceInPage(id)] = CopyOnWrite(Entry(id, std::move(entry)));
+    Page& page = ToChange(PageOf(id));
+    page.entries[PlaceInPage(id)] = std::move(added);
     page.taken |= Bit(PlaceInPage(id));
-    page.changed = ++changes_;
+    if (size_ == 0 || PageOf(id) < first_page_) first_page_ = PageOf(id);
     ++size_;
   }
 
   void Erase(Id id) {
     if (!contains(id)) return;
-    ++changes_;
-    --size_;
-    CopyOnWrite<Page>& shared = pages_[PageOf(id)];
-    if (shared->taken == Bit(PlaceInPage(id))) {
-      shared = {};
+    if (pages_[PageOf(id)]->taken == Bit(PlaceInPage(id))) {
+      if (undo_ != nullptr) undo_->Remember(PageOf(id));
+      pages_[PageOf(id)] = {};
+      ++changes_;
+      --size_;
       SkipEmptyPages();
       return;
     }
-    Page& page = shared.Own();
+    Page& page = ToChange(PageOf(id));
     page.entries[PlaceInPage(id)] = {};
     page.taken &= ~Bit(PlaceInPage(id));
-    page.changed = changes_;
+    --size_;
   }
 
+  // Whether there is an Undo of this table.
+  bool undoing() const { return undo_ != nullptr; }
   // Returns how many changes there were.
   std::uint64_t changes() const { return changes_; }
   // Returns the number of pages. Page n has the ids n * kPage to n * kPage + kPage - 1; no id of a
@@ -212,6 +260,16 @@ class IdTable {
   static std::size_t PageOf(Id id) { return PlaceOf(id) / kPage; }
   static std::size_t PlaceInPage(Id id) { return PlaceOf(id) % kPage; }
   static std::uint64_t Bit(std::size_t place_in_page) { return std::uint64_t{1} << place_in_page; }
+
+  // Returns a page of its own, which is made where there is none.
+  Page& ToChange(std::size_t page) {
+    if (undo_ != nullptr) undo_->Remember(page);
+    CopyOnWrite<Page>& shared = pages_[page];
+    if (!shared) shared = CopyOnWrite(Page());
+    Page& own = shared.Own();
+    own.changed = ++changes_;
+    return own;
+  }
 
   // Returns the place of the first entry from this place on, or kEnd.
   std::size_t NextPlace(std::size_t place) const {
@@ -256,6 +314,7 @@ class IdTable {
   std::size_t size_ = 0;
   std::uint64_t changes_ = 0;
   std::uint64_t copied_at_ = 0;  // changes_ at the time this became a copy
+  Undo* undo_ = nullptr;         // not copied
 };
 
 }  // namespace plumbline

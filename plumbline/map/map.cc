@@ -7,7 +7,9 @@
 #include "plumbline/map/motion.h"
 
 #include <algorithm>
+#include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace plumbline {
@@ -85,7 +87,7 @@ MapRecord Map::Record() const {
           next_point_,
           next_line_,
           correction_,
-          removed_keyframes_.entries(),
+          {removed_keyframes_.entries().begin(), removed_keyframes_.entries().end()},
           {merged_points_.begin(), merged_points_.end()},
           {merged_lines_.begin(), merged_lines_.end()}};
 }
@@ -297,12 +299,74 @@ struct MapChanger {
   void Do(const edit::ScoreLine& change) { Score(change.id, change.visible, change.found); }
 };
 
+// A map as it was.
+struct Map::Undo::Before {
+  explicit Before(Map& map)
+      : version(map.version_),
+        keyframes_taken_in(map.keyframes_taken_in_),
+        next_keyframe(map.next_keyframe_),
+        next_point(map.next_point_),
+        next_line(map.next_line_),
+        correction(map.correction_),
+        keyframes(map.keyframes_),
+        points(map.points_),
+        lines(map.lines_),
+        removed_keyframes(map.removed_keyframes_),
+        merged_points(map.merged_points_),
+        merged_lines(map.merged_lines_) {}
+
+  // The tables put themselves back.
+  void PutBack(Map& map) noexcept {
+    static_assert(std::is_nothrow_move_assignable_v<FeatureCorrection>);
+    map.version_ = version;
+    map.keyframes_taken_in_ = keyframes_taken_in;
+    map.next_keyframe_ = next_keyframe;
+    map.next_point_ = next_point;
+    map.next_line_ = next_line;
+    map.correction_ = std::move(correction);
+  }
+  void Keep() {
+    keyframes.Keep();
+    points.Keep();
+    lines.Keep();
+    removed_keyframes.Keep();
+    merged_points.Keep();
+    merged_lines.Keep();
+  }
+
+  std::int64_t version, keyframes_taken_in;
+  KeyFrameId next_keyframe;
+  PointId next_point;
+  LineId next_line;
+  FeatureCorrection correction;
+  IdTable<KeyFrameId, KeyFrame>::Undo keyframes;
+  IdTable<PointId, MapPoint>::Undo points;
+  IdTable<LineId, MapLine>::Undo lines;
+  RemovedKeyFrames::Undo removed_keyframes;
+  IdTable<PointId, PointId>::Undo merged_points;
+  IdTable<LineId, LineId>::Undo merged_lines;
+};
+
+Map::Undo::Undo(Map& map)
+    : map_(map), before_(map.keyframes_.undoing() ? nullptr : std::make_unique<Before>(map)) {}
+
+Map::Undo::~Undo() {
+  if (before_ && !keep_) before_->PutBack(map_);
+}
+
+void Map::Undo::Keep() {
+  keep_ = true;
+  if (before_) before_->Keep();
+}
+
 void Map::Apply(const MapEdit& edit) {
+  Undo undo(*this);
   ++version_;
   MapChanger changer{*this};
   for (const MapChange& change : edit) {
     std::visit([&](const auto& c) { changer.Do(c); }, change);
   }
+  undo.Keep();
 }
 
 namespace {
@@ -327,6 +391,7 @@ void Map::Absorb(Map other, const Similarity3& this_from_other) {
   for (const auto& [id, keyframe] : other.keyframes()) {
     motion.new_from_old.emplace(id, this_from_other);
   }
+  Undo undo(*this);
   // Numbers tell how many keyframes ago something was: the map that grows has the largest ones.
   if (next_keyframe_ > other.next_keyframe_) {
     ShiftNumbers(other.keyframes_taken_in_);
@@ -335,18 +400,22 @@ void Map::Absorb(Map other, const Similarity3& this_from_other) {
   }
   FeatureCorrection joined = correction_;
   if (joined.lens.border_px() == 0) joined.lens = other.correction_.lens;
-  if (!(joined == correction_)) Apply({edit::CorrectFeatures{joined}});
+  if (!(joined == correction_)) {
+    MapChanger{*this}.Do(edit::CorrectFeatures{joined});
+    ++version_;
+  }
   other.Apply({std::move(motion), edit::CorrectFeatures{joined}});
   MoveEntries(other.keyframes_, keyframes_);
   MoveEntries(other.points_, points_);
   MoveEntries(other.lines_, lines_);
-  removed_keyframes_.Absorb(std::move(other.removed_keyframes_));
+  removed_keyframes_.Absorb(other.removed_keyframes_);
   for (const auto& [gone, kept] : other.merged_points_) merged_points_.Insert(gone, kept);
   for (const auto& [gone, kept] : other.merged_lines_) merged_lines_.Insert(gone, kept);
   keyframes_taken_in_ += other.keyframes_taken_in_;
   next_keyframe_ = std::max(next_keyframe_, other.next_keyframe_);
   ReserveIds(other.next_point_, other.next_line_);
   ++version_;
+  undo.Keep();
 }
 
 namespace {

@@ -83,8 +83,28 @@ class Map {
   // of it.
   MapRecord Record() const;
 
+  // Makes several changes happen together or not at all: puts the map back as it was when this was
+  // made, unless Keep() is called before the end. Each page and entry that changes meanwhile is
+  // copied once. The map may be copied meanwhile, not moved. Within another one of the same map, it
+  // leaves that to the other.
+  class Undo {
+   public:
+    explicit Undo(Map& map);
+    ~Undo();
+    Undo(const Undo&) = delete;
+    Undo& operator=(const Undo&) = delete;
+    void Keep();
+
+   private:
+    struct Before;
+
+    Map& map_;
+    std::unique_ptr<Before> before_;  // null within another one
+    bool keep_ = false;
+  };
+
   // Carries out the changes in order. Changes that name an object that an earlier change removed
-  // are skipped.
+  // are skipped. Where anything is thrown, the map is as it was.
   void Apply(const MapEdit& edit);
 
   // Takes in all of another map of the same atlas, which uses none of this map's ids. The other map
@@ -92,7 +112,7 @@ class Map {
   // keyframes of the map that took in the newest one count as taken in after those of the other.
   // Features of the other map get this map's correction; where it has no lens correction, both get
   // that of the other map. Landmarks that both maps have are there twice until they are fused.
-  // O(size of both maps).
+  // Where anything is thrown, this map is as it was. O(size of both maps).
   void Absorb(Map other, const Similarity3& this_from_other);
 
   // Throws BugError when observations and matches disagree or a landmark has none.

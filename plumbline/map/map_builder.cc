@@ -71,7 +71,7 @@ MapBuilder::MapBuilder(MapRecord record, std::string source)
   map_.next_point_ = record.next_point;
   map_.next_line_ = record.next_line;
   map_.correction_ = record.correction;
-  map_.removed_keyframes_ = RemovedKeyFrames(std::move(record.removed_keyframes));
+  map_.removed_keyframes_ = RemovedKeyFrames(record.removed_keyframes);
   for (const auto& [gone, kept] : record.merged_points) map_.merged_points_.Insert(gone, kept);
   for (const auto& [gone, kept] : record.merged_lines) map_.merged_lines_.Insert(gone, kept);
 }
@@ -86,6 +86,9 @@ void MapBuilder::CheckRecord(const MapRecord& record) const {
   if (!record.correction.IsPlausible()) Fail("an implausible correction");
   for (const auto& [id, removed] : record.removed_keyframes) {
     if (!IsInRange(id, record.next_keyframe)) Fail("a removed keyframe that never was");
+    if (!IsInRange(removed.parent, record.next_keyframe)) {
+      Fail("a removed keyframe beside one that never was");
+    }
     if (!IsPose(removed.from_parent.cam_from_keyframe) || !IsUnit(removed.from_parent.unit) ||
         !IsUnit(removed.unit) || removed.number < 0 ||
         removed.number >= record.keyframes_taken_in) {

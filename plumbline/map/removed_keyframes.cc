@@ -20,38 +20,40 @@ RemovedKeyFrame BesideParentOf(const RemovedKeyFrame& leaving, const RemovedKeyF
 
 }  // namespace
 
-RemovedKeyFrames::RemovedKeyFrames(std::map<KeyFrameId, RemovedKeyFrame> entries)
-    : entries_(std::move(entries)) {
-  for (const auto& [id, entry] : entries_) hanging_[entry.parent].push_back(id);
+RemovedKeyFrames::RemovedKeyFrames(const std::map<KeyFrameId, RemovedKeyFrame>& entries) {
+  for (const auto& [id, entry] : entries) {
+    BesideParent(entry.parent).push_back(id);
+    entries_.Insert(id, entry);
+  }
 }
 
-const RemovedKeyFrame* RemovedKeyFrames::Find(KeyFrameId id) const {
-  const auto found = entries_.find(id);
-  return found == entries_.end() ? nullptr : &found->second;
+// Returns the entries that refer to a parent.
+std::vector<KeyFrameId>& RemovedKeyFrames::BesideParent(KeyFrameId parent) {
+  hanging_.Insert(parent, {});
+  return *hanging_.Find(parent);
 }
 
 void RemovedKeyFrames::Add(KeyFrameId id, const RemovedKeyFrame& entry) {
-  std::vector<KeyFrameId>& beside_parent = hanging_[entry.parent];
+  std::vector<KeyFrameId>& beside_parent = BesideParent(entry.parent);
   beside_parent.push_back(id);
-  const auto hanging = hanging_.find(id);
-  if (hanging != hanging_.end()) {
-    for (const KeyFrameId other : hanging->second) {
-      RemovedKeyFrame& moved = entries_.at(other);
+  if (const std::vector<KeyFrameId>* hanging = std::as_const(hanging_).Find(id)) {
+    for (const KeyFrameId other : *hanging) {
+      RemovedKeyFrame& moved = *entries_.Find(other);
       moved = BesideParentOf(entry, moved);
       beside_parent.push_back(other);
     }
-    hanging_.erase(hanging);
+    hanging_.Erase(id);
   }
-  entries_[id] = entry;
+  entries_.Insert(id, entry);
 }
 
 void RemovedKeyFrames::ShiftNumbers(std::int64_t shift) {
-  for (auto& [id, entry] : entries_) entry.number += shift;
+  entries_.ForEach([&](KeyFrameId, RemovedKeyFrame& entry) { entry.number += shift; });
 }
 
-void RemovedKeyFrames::Absorb(RemovedKeyFrames other) {
-  entries_.merge(other.entries_);
-  hanging_.merge(other.hanging_);
+void RemovedKeyFrames::Absorb(const RemovedKeyFrames& other) {
+  for (const auto& [id, entry] : other.entries_) entries_.Insert(id, entry);
+  for (const auto& [id, hanging] : other.hanging_) hanging_.Insert(id, hanging);
 }
 
 }  // namespace plumbline

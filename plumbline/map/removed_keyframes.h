@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/base/ids.h"
+#include "plumbline/map/id_table.h"
 #include "plumbline/map/placement.h"
 
 #include <cstddef>
@@ -23,16 +24,17 @@ struct RemovedKeyFrame {
 
 // The keyframes that left a map. Each refers to one that is in the map. When that one leaves, too,
 // all that refers to it refers to its parent from then on, so that no chains grow however long the
-// map is used. A removed keyframe takes about 180 bytes.
+// map is used. A removed keyframe takes about 200 bytes.
 class RemovedKeyFrames {
  public:
   RemovedKeyFrames() = default;
-  explicit RemovedKeyFrames(std::map<KeyFrameId, RemovedKeyFrame> entries);
+  // All ids must be valid.
+  explicit RemovedKeyFrames(const std::map<KeyFrameId, RemovedKeyFrame>& entries);
 
-  const std::map<KeyFrameId, RemovedKeyFrame>& entries() const { return entries_; }
+  const IdTable<KeyFrameId, RemovedKeyFrame>& entries() const { return entries_; }
   bool contains(KeyFrameId id) const { return entries_.contains(id); }
   // Returns nullptr where the keyframe was not removed.
-  const RemovedKeyFrame* Find(KeyFrameId id) const;
+  const RemovedKeyFrame* Find(KeyFrameId id) const { return entries_.Find(id); }
 
   // Adds a keyframe that leaves the map; its parent must be in the map. Cost: that of the entries
   // that refer to it.
@@ -40,11 +42,27 @@ class RemovedKeyFrames {
   // Adds to the numbers of all entries.
   void ShiftNumbers(std::int64_t shift);
   // Takes in the entries of another map, which uses other ids.
-  void Absorb(RemovedKeyFrames other);
+  void Absorb(const RemovedKeyFrames& other);
+
+  // As IdTable::Undo.
+  class Undo {
+   public:
+    explicit Undo(RemovedKeyFrames& all) : entries_(all.entries_), hanging_(all.hanging_) {}
+    void Keep() {
+      entries_.Keep();
+      hanging_.Keep();
+    }
+
+   private:
+    IdTable<KeyFrameId, RemovedKeyFrame>::Undo entries_;
+    IdTable<KeyFrameId, std::vector<KeyFrameId>>::Undo hanging_;
+  };
 
  private:
-  std::map<KeyFrameId, RemovedKeyFrame> entries_;
-  std::map<KeyFrameId, std::vector<KeyFrameId>> hanging_;  // entries by parent
+  std::vector<KeyFrameId>& BesideParent(KeyFrameId parent);
+
+  IdTable<KeyFrameId, RemovedKeyFrame> entries_;
+  IdTable<KeyFrameId, std::vector<KeyFrameId>> hanging_;  // ids of the entries of each parent
 };
 
 }  // namespace plumbline

@@ -4,25 +4,14 @@
 
 #include "plumbline/association/projection_search.h"
 #include "plumbline/base/stop_check.h"
-#include "plumbline/geometry/segment.h"
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/line_map_options.h"
 #include "plumbline/mapping/line_support.h"
+#include "plumbline/mapping/mapped_line.h"
 
 #include <vector>
 
 namespace plumbline {
-
-// A straight piece of the world's lines, as given to users.
-struct MappedLine {
-  Segment3 segment;  // in the world; directed with the brighter side as LineFeature says
-  // Deviation of the worse end across the line, in the map's unit; poses count as exact.
-  double sigma = 0;
-  int keyframes = 0;  // number of keyframes that show some of it
-};
-
-// Returns the segments of lines, for drawing.
-std::vector<Segment3> SegmentsOf(const std::vector<MappedLine>& lines);
 
 // An infinite line, the segments that show it, and its pieces that are fit to be given out.
 struct WellSeenLine {

@@ -6,6 +6,7 @@
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/ba_window.h"
 #include "plumbline/mapping/landmark_creation.h"
+#include "plumbline/mapping/outlier_removal.h"
 #include "plumbline/mapping/unit_of_length.h"
 #include "plumbline/mapping/whole_map_adjustment.h"
 #include "plumbline/optimization/pose_sigma.h"
@@ -97,6 +98,7 @@ std::vector<MappingStep> LocalMapper::Add(Map& map,
   const KeyFrameId id = keyframe.id;
   std::vector<MappingStep> times;
   ShownLandmarks refreshed;
+  Map::Undo undo(map);
   Timed("take_in", times, [&] { refreshed = TakeIn(map, keyframe, scores); });
   Timed("create", times, [&] { CreateLandmarks(map, id); });
   Timed("fuse", times, [&] { Fuse(map, id, refreshed); });
@@ -107,6 +109,7 @@ std::vector<MappingStep> LocalMapper::Add(Map& map,
     map.Apply(RemoveRedundantKeyFrames(map, id, options_.cleanup));
     map.Apply(RemoveRevisitedKeyFrames(map, id, options_.cleanup));
   });
+  undo.Keep();
   return times;
 }
 
@@ -189,6 +192,7 @@ std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) co
     });
     options.lens_calibration = false;  // the first round has learned the lens
   }
+  Timed("finish", times, [&] { map.Apply(RemoveOutliers(map, imaging_, lines_.weights())); });
   return times;
 }
 

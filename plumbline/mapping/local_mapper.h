@@ -8,6 +8,7 @@
 #include "plumbline/map/atlas.h"
 #include "plumbline/map/map.h"
 #include "plumbline/map/young_landmarks.h"
+#include "plumbline/mapping/adjusted_lines.h"
 #include "plumbline/mapping/correction.h"
 #include "plumbline/mapping/landmark_cleanup.h"
 #include "plumbline/mapping/options.h"
@@ -28,12 +29,6 @@ namespace plumbline {
 struct MappingStep {
   std::string name;
   double milliseconds = 0;
-};
-
-// What local bundle adjustment held in memory for its lines, summed over all windows.
-struct AdjustedLines {
-  std::size_t count = 0;
-  std::size_t bytes = 0;
 };
 
 // A landmark that a feature shows, and the number of keyframes that show it.
@@ -57,7 +52,8 @@ class LocalMapper {
 
   // Takes in a keyframe, with the scores that tracking counted since the last one. Where the
   // pyramid of its rectified left image is given (BuildOrbPyramid), points are aligned
-  // (PointAligner). Returns the time of each step, in order.
+  // (PointAligner). Returns the time of each step, in order. Where anything is thrown, the map is
+  // as it was.
   std::vector<MappingStep> Add(Map& map,
                                const KeyFrame& keyframe,
                                const TrackingScores& scores,
@@ -74,8 +70,9 @@ class LocalMapper {
   std::vector<MappingStep> Tie(Map& map, KeyFrameId newest, KeyFrameId older);
 
   // Adjusts the whole of a map to which nothing will be added, twice (AdjustWholeMap), with the
-  // stereo correction that it was about to get. When stopped, the map is that of the last
-  // adjustment that was completed. Returns the time of each step, in order.
+  // stereo correction that it was about to get, and removes what does not fit then
+  // (RemoveOutliers). When stopped, the poses are those of the last adjustment that was completed.
+  // Returns the time of each step, in order.
   std::vector<MappingStep> Finish(Map& map, const StopCheck& stop = {}) const;
 
   // Gives a new, empty map what was learned about a pair of cameras.

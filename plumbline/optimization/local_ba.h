@@ -22,7 +22,8 @@ namespace plumbline {
 // to fix the gauge; what no observation fixes is held by the damping.
 //
 //   problem   poses cam_from_world, landmarks in the world, measurements in pixels; indices must be
-//             in range (BugError otherwise)
+//             in range (BugError otherwise), rotations of norm 1 (unit_rotation.h; InputError
+//             otherwise)
 //   stop      asked in every iteration, and while the equations of many poses are solved
 //   returns   finite numbers whenever the input is finite
 //   cost      per iteration O(sum over landmarks of their poses squared), and the time of

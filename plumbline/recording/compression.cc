@@ -3,9 +3,12 @@
 #include "plumbline/recording/compression.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <fstream>
 #include <limits>
 #include <memory>
+#include <system_error>
 
 #include <bzlib.h>
 #include <fmt/format.h>
@@ -148,6 +151,55 @@ Expected<Bytes, std::string> Decompress(Compression compression,
   if (filled < size) return OtherSize(size, "fewer");
   bytes.resize(filled);
   return bytes;
+}
+
+bool IsZstd(std::span<const std::uint8_t> bytes) {
+  constexpr std::array<std::uint8_t, 4> kMagic = {0x28, 0xB5, 0x2F, 0xFD};
+  return bytes.size() >= kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
+}
+
+std::optional<std::uint64_t> ZstdSize(std::span<const std::uint8_t> bytes) {
+  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR) return std::nullopt;
+  return size;
+}
+
+std::optional<std::string> UnpackZstdFile(const std::filesystem::path& from,
+                                          const std::filesystem::path& to) {
+  constexpr std::size_t kPiece = 1 << 20;
+  constexpr std::uintmax_t kRoomForOthers = std::uintmax_t{1} << 26;
+  std::ifstream in(from, std::ios::binary);
+  std::ofstream out(to, std::ios::binary);
+  const auto no_room = [&] {
+    return InputError(from.string() + ": cannot be unpacked into " + to.parent_path().string() +
+                      ": no room (TMPDIR names another folder)");
+  };
+  if (!in) throw InputError(from.string() + ": cannot be read");
+  if (!out) throw no_room();
+  ZstdUnpacker unpacker;
+  Bytes packed(kPiece), unpacked(kPiece);
+  bool whole = false;
+  while (true) {
+    in.read(reinterpret_cast<char*>(packed.data()), static_cast<std::streamsize>(kPiece));
+    std::span<const std::uint8_t> left(packed.data(), static_cast<std::size_t>(in.gcount()));
+    if (left.empty()) break;
+    for (bool more = true; more;) {
+      const Step step = unpacker.Do(left, unpacked);
+      if (step.failed) return "the packed data is damaged";
+      left = left.subspan(step.taken);
+      whole = step.end;
+      more = !left.empty() || step.given == unpacked.size();
+      std::error_code error;
+      const auto room = std::filesystem::space(to.parent_path(), error).available;
+      if (error || room < kRoomForOthers) throw no_room();
+      out.write(reinterpret_cast<const char*>(unpacked.data()),
+                static_cast<std::streamsize>(step.given));
+      if (!out) throw no_room();
+    }
+  }
+  out.close();
+  if (!out) throw no_room();
+  return whole ? std::nullopt : std::optional<std::string>("the packed data ends early");
 }
 
 }  // namespace plumbline

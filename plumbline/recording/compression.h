@@ -5,6 +5,8 @@
 #include "plumbline/base/error.h"
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,5 +22,16 @@ enum class Compression { kNone, kBzip2, kLz4, kZstd };
 Expected<std::vector<std::uint8_t>, std::string> Decompress(Compression compression,
                                                             std::span<const std::uint8_t> packed,
                                                             std::uint64_t size);
+
+// Whether bytes begin as a Zstandard frame does.
+bool IsZstd(std::span<const std::uint8_t> bytes);
+// Returns how many bytes a Zstandard frame says that it holds; nullopt where it says nothing.
+std::optional<std::uint64_t> ZstdSize(std::span<const std::uint8_t> bytes);
+
+// Unpacks a file of Zstandard frames into another file. Returns why it is not whole, where it is
+// damaged or ends early: then what comes before is there. Throws InputError where one of the files
+// cannot be opened, or where there is no room for the other one. Takes little memory.
+std::optional<std::string> UnpackZstdFile(const std::filesystem::path& from,
+                                          const std::filesystem::path& to);
 
 }  // namespace plumbline

@@ -5,6 +5,7 @@
 #include "plumbline/base/crc32.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/recording/byte_cursor.h"
+#include "plumbline/recording/chunk_file.h"
 
 #include <algorithm>
 #include <map>
@@ -33,11 +34,35 @@ std::string_view AsText(ByteSpan bytes) {
 // Goes through a file once.
 class McapReader {
  public:
-  McapReader(const std::filesystem::path& path, const MessageSink& sink)
-      : file_(std::make_unique<Recording>(path)), sink_(sink) {}
+  McapReader(const std::filesystem::path& path,
+             const MessageSink& sink,
+             const std::filesystem::path& name = {})
+      : file_(std::make_unique<ChunkFile>(path, name)), sink_(sink) {}
 
-  std::unique_ptr<Recording> Read() {
-    CheckMagic();
+  std::unique_ptr<ChunkFile> Read() {
+    CheckBegin();
+    CheckEnd();
+    ReadRecords();
+    return std::move(file_);
+  }
+
+  std::unique_ptr<ChunkFile> ReadWhatIsThere() {
+    CheckBegin();
+    try {
+      ReadRecords();
+    } catch (const InputError& error) {
+      file_->AddNote(std::string(error.what()) + "; what comes before is read");
+    }
+    return std::move(file_);
+  }
+
+ private:
+  struct Record {
+    std::uint8_t op = 0;
+    std::uint64_t at = 0, data = 0, size = 0;
+  };
+
+  void ReadRecords() {
     std::uint64_t at = kMagic.size();
     for (bool first = true; !ended_; first = false) {
       const Record record = ReadRecord(at);
@@ -51,27 +76,22 @@ class McapReader {
     if (at + kMagic.size() != file_->size() || AsText(file_->Bytes(at, kMagic.size())) != kMagic) {
       file_->FailAt(at, "expected the end of the file, found something else");
     }
-    return std::move(file_);
   }
 
- private:
-  struct Record {
-    std::uint8_t op = 0;
-    std::uint64_t at = 0, data = 0, size = 0;
-  };
-
-  void CheckMagic() const {
-    const std::string path = file_->path().string();
+  void CheckBegin() const {
     const auto begin = file_->Bytes(0, std::min<std::uint64_t>(kMagic.size(), file_->size()));
     if (AsText(begin) != kMagic) {
-      throw InputError(path +
+      throw InputError(file_->path().string() +
                        ": expected an MCAP file, found another file, or a version of it "
                        "that is not known");
     }
+  }
+
+  void CheckEnd() const {
     const bool whole = file_->size() >= 2 * kMagic.size() &&
                        AsText(file_->Bytes(file_->size() - kMagic.size(), kMagic.size())) == kMagic;
     if (!whole) {
-      throw InputError(path +
+      throw InputError(file_->path().string() +
                        ": expected the end of an MCAP file, found none: the file ends early "
                        "or was not closed (mcap recover completes it)");
     }
@@ -246,7 +266,7 @@ class McapReader {
     }
   }
 
-  std::unique_ptr<Recording> file_;
+  std::unique_ptr<ChunkFile> file_;
   const MessageSink& sink_;
   std::map<std::uint16_t, std::string> schemas_;     // name of each id
   std::map<std::uint16_t, std::uint32_t> channels_;  // index of each id
@@ -259,6 +279,12 @@ bool BeginsAsMcap(ByteSpan bytes) { return AsText(bytes).starts_with(kMagic); }
 
 std::unique_ptr<Recording> ReadMcap(const std::filesystem::path& path, const MessageSink& sink) {
   return McapReader(path, sink).Read();
+}
+
+std::unique_ptr<Recording> ReadMcapPart(const std::filesystem::path& path,
+                                        const MessageSink& sink,
+                                        const std::filesystem::path& name) {
+  return McapReader(path, sink, name).ReadWhatIsThere();
 }
 
 }  // namespace plumbline

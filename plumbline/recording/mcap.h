@@ -46,4 +46,11 @@ bool BeginsAsMcap(std::span<const std::uint8_t> bytes);
 // (`mcap recover` completes it). Cost: reading and unpacking the file once.
 std::unique_ptr<Recording> ReadMcap(const std::filesystem::path& path, const MessageSink& sink);
 
+// Reads what there is of an MCAP file that may be damaged or end early, up to the first fault,
+// which becomes a note. `name` is what messages call it. Throws InputError for what is no such
+// file.
+std::unique_ptr<Recording> ReadMcapPart(const std::filesystem::path& path,
+                                        const MessageSink& sink,
+                                        const std::filesystem::path& name);
+
 }  // namespace plumbline

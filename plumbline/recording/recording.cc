@@ -3,105 +3,43 @@
 #include "plumbline/recording/recording.h"
 
 #include "plumbline/base/input_file.h"
+#include "plumbline/recording/compression.h"
 
-#include <algorithm>
-#include <limits>
 #include <system_error>
 
-#include <fmt/format.h>
-
 namespace plumbline {
-
-Recording::Recording(std::filesystem::path path) : path_(std::move(path)) {
-  std::error_code error;
-  if (!std::filesystem::exists(path_, error)) throw InputError(path_.string() + ": no such file");
-  if (!std::filesystem::is_regular_file(path_, error)) {
-    throw InputError(path_.string() + ": expected a file, found " + KindOf(path_));
-  }
-  size_ = std::filesystem::file_size(path_, error);
-  file_.open(path_, std::ios::binary);
-  if (!file_ || error) throw InputError(path_.string() + ": cannot be read");
-}
 
 std::uint32_t Recording::AddChannel(Channel channel) {
   channels_.push_back(std::move(channel));
   return static_cast<std::uint32_t>(channels_.size() - 1);
 }
 
-std::uint32_t Recording::AddChunk(std::uint64_t offset,
-                                  std::uint64_t stored,
-                                  Compression compression,
-                                  std::uint64_t size) {
-  if (size > kLargestChunk || stored > kLargestChunk) {
-    FailAt(offset,
-           fmt::format("expected at most {} bytes in one piece, found {}",
-                       kLargestChunk,
-                       std::max(size, stored)));
-  }
-  if (chunks_.size() == std::numeric_limits<std::uint32_t>::max()) {
-    FailAt(offset, "expected fewer chunks");
-  }
-  chunks_.push_back({offset, stored, size, compression});
-  return static_cast<std::uint32_t>(chunks_.size() - 1);
-}
-
-std::vector<std::uint8_t> Recording::Bytes(std::uint64_t offset, std::uint64_t count) const {
-  if (offset > size_ || count > size_ - offset) {
-    FailAt(offset, fmt::format("expected {} bytes, but the file ends at {}", count, size_));
-  }
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(count));
-  const std::lock_guard lock(mutex_);
-  file_.clear();
-  file_.seekg(static_cast<std::streamoff>(offset));
-  file_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
-  if (!file_) FailAt(offset, "cannot be read");
+Expected<std::vector<std::uint8_t>, std::string> Recording::Message(
+    const StoredMessage& message) const {
+  auto bytes = StoredBytes(message);
+  if (!bytes) return bytes;
+  if (auto unpacked = UnpackedMessage(channels_.at(message.channel), *bytes)) return *unpacked;
   return bytes;
 }
 
-Expected<ChunkBytes, std::string> Recording::Chunk(std::uint32_t index) const {
-  const ChunkPlace& place = chunks_.at(index);
-  {
-    const std::lock_guard lock(mutex_);
-    const auto known = std::find_if(recent_.begin(), recent_.end(), [&](const auto& chunk) {
-      return chunk.second != nullptr && chunk.first == index;
-    });
-    if (known != recent_.end()) {
-      std::rotate(recent_.begin(), known, known + 1);
-      return recent_.front().second;
-    }
+std::optional<Expected<std::vector<std::uint8_t>, std::string>> UnpackedMessage(
+    const Channel& channel, std::span<const std::uint8_t> bytes) {
+  // CDR begins with 0, Zstandard does not.
+  if (channel.encoding != "cdr" || !IsZstd(bytes)) return std::nullopt;
+  const auto size = ZstdSize(bytes);
+  if (!size || *size > kLargestChunk) {
+    return Expected<std::vector<std::uint8_t>, std::string>(
+        std::string("expected a packed message that tells its size"));
   }
-  std::vector<std::uint8_t> packed;
-  try {
-    packed = Bytes(place.offset, place.stored);
-  } catch (const InputError& error) {
-    return std::string(error.what());
-  }
-  if (place.compression != Compression::kNone || packed.size() != place.size) {
-    const auto unpacked = Decompress(place.compression, packed, place.size);
-    if (!unpacked) return unpacked.error();
-    packed = *unpacked;
-  }
-  auto bytes = std::make_shared<const std::vector<std::uint8_t>>(std::move(packed));
-  const std::lock_guard lock(mutex_);
-  std::rotate(recent_.begin(), recent_.end() - 1, recent_.end());
-  recent_.front() = {index, bytes};
-  return ChunkBytes(bytes);
+  return Decompress(Compression::kZstd, bytes, *size);
 }
 
-Expected<std::vector<std::uint8_t>, std::string> Recording::Message(
-    const StoredMessage& message) const {
-  const auto chunk = Chunk(message.chunk);
-  if (!chunk) return chunk.error();
-  const std::vector<std::uint8_t>& bytes = **chunk;
-  if (message.offset > bytes.size() || message.size > bytes.size() - message.offset) {
-    return std::string("the file has changed");
+void CheckIsFile(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw InputError(path.string() + ": no such file");
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw InputError(path.string() + ": expected a file, found " + KindOf(path));
   }
-  const auto begin = bytes.begin() + message.offset;
-  return std::vector<std::uint8_t>(begin, begin + message.size);
-}
-
-void Recording::FailAt(std::uint64_t offset, const std::string& why) const {
-  throw InputError(fmt::format("{}: byte {}: {}", path_.string(), offset, why));
 }
 
 }  // namespace plumbline

@@ -5,6 +5,7 @@
 #include "plumbline/base/printable.h"
 #include "plumbline/base/units.h"
 #include "plumbline/recording/byte_cursor.h"
+#include "plumbline/recording/chunk_file.h"
 
 #include <algorithm>
 #include <map>
@@ -73,9 +74,9 @@ class Fields {
 class BagReader {
  public:
   BagReader(const std::filesystem::path& path, const MessageSink& sink)
-      : bag_(std::make_unique<Recording>(path)), sink_(sink) {}
+      : bag_(std::make_unique<ChunkFile>(path)), sink_(sink) {}
 
-  std::unique_ptr<Recording> Read() {
+  std::unique_ptr<ChunkFile> Read() {
     CheckMagic();
     std::uint64_t at = kMagic.size();
     for (bool first = true; at < bag_->size(); first = false) {
@@ -283,7 +284,7 @@ class BagReader {
     check(described_, connection_count_, "connections in the index");
   }
 
-  std::unique_ptr<Recording> bag_;
+  std::unique_ptr<ChunkFile> bag_;
   const MessageSink& sink_;
   std::map<std::uint64_t, std::uint32_t> channels_;  // index of each connection's channel
   // Numbers that the header tells.

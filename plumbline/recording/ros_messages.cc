@@ -49,7 +49,9 @@ class FieldReader {
   };
   Header ReadHeader() {
     if (!cdr_) U32();  // ROS 1 has the number of the message here
-    const std::int64_t seconds = U32();
+    const std::uint32_t count = U32();
+    // ROS 1 counts seconds without a sign, ROS 2 with one.
+    const std::int64_t seconds = cdr_ ? std::int64_t{static_cast<std::int32_t>(count)} : count;
     const std::int64_t nanoseconds = U32();
     return {seconds * kNsPerSecond + nanoseconds, Text()};
   }

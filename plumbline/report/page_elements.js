@@ -50,6 +50,11 @@ function metres(value, count = 3) {
   return digits(value * unit.factor, count) + " " + unit.name;
 }
 
+// A length in a map: in metres, or in the unit that a map of one camera has of its own.
+function lengthInMap(value, metric, count = 3) {
+  return metric ? metres(value, count) : digits(value, count) + " units";
+}
+
 // A value that tells its listeners when it changes.
 class Shared {
   constructor(value) {

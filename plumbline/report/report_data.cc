@@ -98,7 +98,7 @@ Json Run(const Dataset& dataset, const ReportContext& context) {
           {"date", context.date},
           {"seed", description.seed},
           {"command", description.arguments.empty() ? Json(nullptr) : Json(command)},
-          {"notes", dataset.info().notes},
+          {"notes", NotesOf(description, dataset)},
           {"wall_seconds", Rounded(context.resources.wall_seconds, 3)},
           {"cpu_seconds", Rounded(context.resources.cpu_seconds, 3)},
           {"peak_memory_mb", Rounded(context.resources.peak_memory_mb, 1)},
@@ -215,6 +215,13 @@ Json Error(const MapScene& map, SensorKind sensor, const ShownFrames& shown) {
           {"relative_rotation", std::move(roe)}};
 }
 
+// Whether lengths are metres: one camera measures none, unless ground truth scales its map.
+bool IsMetric(const MapScene& map, SensorKind sensor) {
+  if (sensor != SensorKind::kMono) return true;
+  return map.error && map.error->degenerate.value_or(AlignmentFailure::kCollinear) ==
+                          AlignmentFailure::kCollinear;
+}
+
 Json MapData(const MapScene& map,
              const Vector3d& origin,
              SensorKind sensor,
@@ -237,6 +244,7 @@ Json MapData(const MapScene& map,
     keyframes.Add(pose.rotation.coeffs());  // in the order x y z w
   }
   return {{"id", map.id.value},
+          {"metric", IsMetric(map, sensor)},
           {"keyframe_count", map.keyframe_count},
           {"point_count", map.point_count},
           {"line_count", map.line_count},
@@ -304,6 +312,9 @@ Json Scene(const System& system,
   return {{"origin", {scene.origin.x(), scene.origin.y(), scene.origin.z()}},
           {"up", {scene.up.x(), scene.up.y(), scene.up.z()}},
           {"has_ground_truth", dataset.info().ground_truth.has_value()},
+          {"ground_truth_fault",
+           dataset.info().ground_truth_fault ? Json(*dataset.info().ground_truth_fault)
+                                             : Json(nullptr)},
           {"reference", reference.Encoded()},
           {"reference_seconds", reference_seconds.Encoded()},
           {"main", scene.main ? Json(*scene.main) : Json(nullptr)},

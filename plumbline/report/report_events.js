@@ -71,7 +71,9 @@ function chanceText(log10) {
 function movedText(event) {
   if (event.moved === undefined) return "–";
   const scale = event.scale === 1 ? "" : `, lengths × ${digits(event.scale, 4)}`;
-  return `${metres(event.moved)}, ${digits(event.turned_deg, 2)}°${scale}`;
+  // In the map as it was made, whatever ground truth makes of it since.
+  const moved = lengthInMap(event.moved, data.run.sensor !== "mono");
+  return `${moved}, ${digits(event.turned_deg, 2)}°${scale}`;
 }
 
 function eventWhat(event) {
@@ -80,8 +82,11 @@ function eventWhat(event) {
 }
 
 function eventRow(event) {
+  const map = scene.maps.find((each) => each.id === event.map);
+  const unit = !map || map.metric ? "m" : "units";
   const place = event.older_at ?
-      event.older_at.map((value, axis) => digits(value + scene.origin[axis])).join(", ") + " m" :
+      event.older_at.map((value, axis) => digits(value + scene.origin[axis])).join(", ") +
+          ` ${unit}` :
       "–";
   const older = `keyframe ${event.older_keyframe}` +
       (event.map !== null && scene.maps.length > 1 ? `, map ${event.map}` : "");

@@ -73,7 +73,8 @@ function layerButtons(view) {
 
 function heightLegend(view) {
   const origin = scene.up.reduce((sum, value, axis) => sum + value * scene.origin[axis], 0);
-  const [low, high] = view.heights.map((height) => digits(height + origin) + " m");
+  const [low, high] = view.heights.map(
+      (height) => `${digits(height + origin)} ${shownUnit()}`);
   return make(
       "span", {class: "ramp"}, make("span", {}, "height " + low), make("i"),
       make("span", {}, high));
@@ -91,7 +92,7 @@ function buildView(figure, bar) {
   const show = () => {
     view.setScene(viewScene());
     ramp.replaceChildren(heightLegend(view));
-    grid.textContent = `Grid: ${digits(view.gridStep, 1)} m.`;
+    grid.textContent = `Grid: ${digits(view.gridStep, 1)} ${shownUnit()}.`;
   };
   show();
   shownMaps.listen(show);

@@ -64,9 +64,10 @@ function verdict() {
 function accuracyTiles() {
   const error = mainMap && mainMap.error;
   if (!error) {
+    const why = scene.ground_truth_fault ? "ground truth that cannot be used" : "no ground truth";
     return [tile(
         "Position error (ATE)", "–", "",
-        scene.has_ground_truth ? "no pose at a time with ground truth" : "no ground truth")];
+        scene.has_ground_truth ? "no pose at a time with ground truth" : why)];
   }
   const ate = lengthUnit(error.ate.rmse);
   const tiles = [tile(

@@ -32,6 +32,10 @@ const shownMaps = new Shared(
         mainMap                                                   ? [mainMap] :
                                                                     []);
 
+// The unit of the places shown: the map of one camera has one of its own until ground truth scales
+// it.
+const shownUnit = () => shownMaps.value.every((map) => map.metric) ? "m" : "units";
+
 const shownTogether = scene.maps.length > 1 && scene.maps.every((map) => map.error);
 // Where each frame was, by the maps shown: [map, index in it].
 let placesShown;

@@ -46,8 +46,8 @@ class TrajectoryView {
       label: "Trajectory. Arrow keys read out frame by frame.",
       height: (width) => Math.max(300, Math.min(520, 0.85 * width)),
       equal: true,
-      xLabel: () => `${AXES[this.plane.a]} [m]`,
-      yLabel: () => `${this.plane.flip ? "−" : ""}${AXES[this.plane.b]} [m]`,
+      xLabel: () => `${AXES[this.plane.a]} [${shownUnit()}]`,
+      yLabel: () => `${this.plane.flip ? "−" : ""}${AXES[this.plane.b]} [${shownUnit()}]`,
       range: () => this.range(),
       draw: (plot) => this.draw(plot),
       cursor: frameCursor,
@@ -159,12 +159,19 @@ class TrajectoryView {
   read(i) {
     const [positions, k] = this.positionOf(i);
     const place = [0, 1, 2].map((axis) => digits(positions[3 * k + axis] + scene.origin[axis], 4));
-    const rows = [frameHead(i), timeRow(i), {what: "x, y, z", much: place.join(", ") + " m"}];
+    const rows = [
+      frameHead(i), timeRow(i), {what: "x, y, z", much: `${place.join(", ")} ${shownUnit()}`}
+    ];
     const error = errorByFrame.get(i);
     if (error) rows.push({what: "position error", much: metres(error.position)});
     return rows;
   }
 }
+
+// Why nothing is compared where there is no ground truth.
+const withoutGroundTruth = () => scene.ground_truth_fault ?
+    `No errors: ${scene.ground_truth_fault}.` :
+    "The sequence has no ground truth to compare with.";
 
 function buildTrajectory() {
   const body = sectionBody("trajectory");
@@ -195,7 +202,7 @@ function buildTrajectory() {
   new TrajectoryView(views, 1);
   const texts = [];
   if (!scene.has_ground_truth)
-    texts.push("The sequence has no ground truth. The world is the first camera of the map.");
+    texts.push(`${withoutGroundTruth()} The world is the first camera of the map.`);
   else if (!mainMap)
     texts.push("Ground truth only.");
   else if (!mainMap.error)
@@ -285,7 +292,7 @@ function buildError() {
   if (errorByFrame.size === 0) {
     body.append(note(
         !scene.has_ground_truth ?
-            "The sequence has no ground truth to compare with." :
+            withoutGroundTruth() :
             "There is no pose at a time with ground truth, so nothing can be compared."));
     return;
   }

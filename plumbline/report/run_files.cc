@@ -12,8 +12,11 @@
 #include "plumbline/report/timing.h"
 #include "plumbline/slam/atlas_context.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -77,6 +80,37 @@ std::vector<RunFile> TrajectoryFiles(const System& system, TimeMirror mirror_ns)
   return files;
 }
 
+void WriteCovariances(const System& system,
+                      std::optional<MapId> map,
+                      TimeMirror mirror_ns,
+                      const std::filesystem::path& path) {
+  std::vector<StampedCovariance> covariances;
+  if (map) covariances = system.CausalCovariances(*map);
+  if (mirror_ns) {
+    for (StampedCovariance& pose : covariances) pose.stamp_ns = *mirror_ns - pose.stamp_ns;
+    std::reverse(covariances.begin(), covariances.end());
+  }
+  WriteFileAtomically(path, FormatCovariances(covariances));
+}
+
+// Returns one file beside each of causal poses.
+std::vector<RunFile> CovarianceFiles(const System& system, TimeMirror mirror_ns) {
+  std::vector<RunFile> files;
+  const auto add = [&](const TrajectoryNames& names, std::optional<MapId> map) {
+    files.push_back({names.covariance, [=, &system](const std::filesystem::path& path) {
+                       WriteCovariances(system, map, mirror_ns, path);
+                     }});
+  };
+  const auto main = system.MainMap();
+  add(TrajectoryNames(), main);
+  if (!main) return files;
+  for (const auto& [id, map] : system.maps()) {
+    if (id != *main) add(TrajectoryNames(id), id);
+  }
+  for (const auto& [id, joined] : system.atlas().joined()) add(TrajectoryNames(id), id);
+  return files;
+}
+
 template <class Format>
 RunFile FramesFile(const std::string& name,
                    const System& system,
@@ -105,6 +139,21 @@ TrajectoryNames::TrajectoryNames(std::optional<MapId> map) {
   final_estimate = "trajectory" + suffix + ".txt";
   causal = "trajectory_causal" + suffix + ".txt";
   keyframes = "keyframes" + suffix + ".txt";
+  covariance = "trajectory_covariance" + suffix + ".txt";
+}
+
+std::string FormatCovariances(const std::vector<StampedCovariance>& covariances) {
+  std::string text;
+  for (const StampedCovariance& pose : covariances) {
+    text += FormatStamp(pose.stamp_ns);
+    for (Eigen::Index row = 0; row < 6; ++row) {
+      for (Eigen::Index column = 0; column < 6; ++column) {
+        fmt::format_to(std::back_inserter(text), " {:.12g}", pose.covariance(row, column));
+      }
+    }
+    text += '\n';
+  }
+  return text;
 }
 
 std::string FormatFrameRow(const FrameRecord& f, MapId final_map) {
@@ -142,6 +191,7 @@ std::vector<RunFile> PoseFiles(const System& system, std::optional<std::int64_t>
     return FormatFrames(frames, system.atlas());
   };
   files.push_back(FramesFile("frames.csv", system, time_mirror_ns, format));
+  for (RunFile& file : CovarianceFiles(system, time_mirror_ns)) files.push_back(std::move(file));
   return files;
 }
 

@@ -15,8 +15,12 @@ namespace plumbline {
 // Names of the files of a map's trajectories: the plain ones, or those of one map of several.
 struct TrajectoryNames {
   explicit TrajectoryNames(std::optional<MapId> map = std::nullopt);
-  std::string final_estimate, causal, keyframes;
+  std::string final_estimate, causal, keyframes, covariance;
 };
+
+// trajectory_covariance.txt: one row for each pose whose covariance is known, its stamp as in the
+// trajectories and 36 numbers, the matrix row by row.
+std::string FormatCovariances(const std::vector<StampedCovariance>& covariances);
 
 // frames.csv: one row for each input frame with what became of it. `final_map` is the map that a
 // pose is part of in the end: the one in which it was reported may have become part of another one,
@@ -34,7 +38,8 @@ std::string FormatFrames(const FrameLog& frames, const Atlas& atlas = {});
 // the stamps as played.
 
 // Returns trajectory.txt, trajectory_causal.txt, keyframes.txt (of the map with most frames; then
-// those of other maps as *_map<k>.txt), and frames.csv.
+// those of other maps as *_map<k>.txt), frames.csv, and trajectory_covariance.txt (then those of
+// other maps).
 std::vector<RunFile> PoseFiles(const System& system,
                                std::optional<std::int64_t> time_mirror_ns = std::nullopt);
 

@@ -9,9 +9,11 @@
 
 #include <algorithm>
 #include <exception>
+#include <fstream>
 #include <iterator>
 #include <new>
 #include <regex>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -68,6 +70,29 @@ void RemovePart(const fs::path& part) {
   for (const fs::path& path : ours) fs::remove(path, error);
   fs::remove(part / RunManifest::kFile, error);
   fs::remove(part, error);
+}
+
+// Whether a file of the journal has no rows; FormatFrames has a header.
+bool HasNoRows(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string header, row;
+  if (file.filename() == "frames.csv") std::getline(stream, header);
+  return !std::getline(stream, row);
+}
+
+// Whether a run ended before it wrote anything of a frame: all that is left are its options, and
+// files of the journal without rows.
+bool HoldsNoFrames(const fs::path& part) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(part, error)) {
+    const std::string name = entry.path().filename().string();
+    const bool of_journal =
+        name == "frames.csv" || (IsRunFile(name) && entry.path().extension() == ".txt");
+    const bool empty = name == "options.yaml" || name == kReserve || name == RunManifest::kFile ||
+                       IsTemporary(name) || (of_journal && HasNoRows(entry.path()));
+    if (!empty) return false;
+  }
+  return !error;
 }
 
 // Whether a file may be replaced because a run wrote it.
@@ -205,6 +230,8 @@ void RunFolder::TakeCareOfPart() {
                      "complete now");
     return;
   }
+  if (HoldsNoFrames(part_)) RemovePart(part_);
+  if (!IsTaken(part_)) return;
   for (int k = 1;; ++k) {
     const fs::path kept = folder_ / fmt::format("interrupted-{}", k);
     if (IsTaken(kept)) continue;
@@ -287,6 +314,10 @@ bool RunFolder::WouldLose() const {
   if (failures_.empty()) return false;
   const auto earlier = ReadRunManifest(folder_);
   return earlier && !earlier->files.empty();
+}
+
+bool RunFolder::HoldsPoses() const {
+  return ReadRunManifest(folder_).has_value() && !HasNoRows(folder_ / "trajectory.txt");
 }
 
 void RunFolder::Commit() {

@@ -52,7 +52,8 @@ void CheckNoResult(std::string_view option,
 // touched. Killed at any moment, a run leaves the earlier results as they were and its own in
 // DIR/.part, or, from the first step of Commit() on, its own whole: the next RunFolder in DIR
 // completes the exchange. What a run that was killed before left in DIR/.part is kept as
-// DIR/interrupted-1, -2 and so on. One program at a time works in DIR (FolderLock).
+// DIR/interrupted-1, -2 and so on, unless it had not got to a frame. One program at a time works in
+// DIR (FolderLock).
 class RunFolder {
  public:
   // Makes DIR where it is missing, and DIR/.part. Throws InputError, which says what to do, when
@@ -88,6 +89,9 @@ class RunFolder {
 
   // Whether Commit() would replace complete results by some that lack files.
   bool WouldLose() const;
+
+  // Whether DIR has poses of an earlier run.
+  bool HoldsPoses() const;
 
   // Moves the files of the part into DIR, removes those of the earlier run, then the part. Throws
   // InputError when that is impossible, for instance because DIR has got a file of such a name

@@ -45,7 +45,8 @@ bool RunManifest::Lists(const std::string& name) const {
 
 bool IsRunFile(const std::string& name) {
   static const std::regex written(
-      R"((trajectory|trajectory_causal|keyframes)(_map[0-9]+)?\.txt|overlay_[0-9]{6,}\.png|)"
+      R"((trajectory|trajectory_causal|trajectory_covariance|keyframes)(_map[0-9]+)?\.txt|)"
+      R"(overlay_[0-9]{6,}\.png|)"
       R"(options\.yaml|(frames|timing)\.csv|(timing|summary)\.json|map\.(plb|ply)|lines\.(obj|dxf)|)"
       R"(report\.html)");
   return std::regex_match(name, written);

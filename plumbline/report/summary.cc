@@ -3,6 +3,7 @@
 #include "plumbline/report/summary.h"
 
 #include "plumbline/base/options.h"
+#include "plumbline/initialization/initializer.h"
 #include "plumbline/report/error_options.h"
 #include "plumbline/report/timing.h"
 
@@ -157,6 +158,11 @@ LineMemory MeasureLineMemory(const System& system) {
   return memory;
 }
 
+std::string WhyNoErrors(const DatasetInfo& info) {
+  if (info.ground_truth_fault) return *info.ground_truth_fault;
+  return info.ground_truth ? "the ground truth covers no pose" : "no ground truth to compare with";
+}
+
 std::optional<TrajectoryError> CompareWithGroundTruth(const System& system,
                                                       const Dataset& dataset,
                                                       MapId map) {
@@ -224,6 +230,12 @@ void AddStages(const System& system, Json& json) {
 
 }  // namespace
 
+std::vector<std::string> NotesOf(const RunDescription& description, const Dataset& dataset) {
+  std::vector<std::string> notes = dataset.info().notes;
+  notes.insert(notes.end(), description.notes.begin(), description.notes.end());
+  return notes;
+}
+
 std::string FormatSummary(const RunDescription& description,
                           const System& system,
                           const Dataset& dataset,
@@ -236,6 +248,7 @@ std::string FormatSummary(const RunDescription& description,
   json["mode"] = NameOf(system.options().slam.mode);
   json["seed"] = description.seed;
   json["interrupted"] = description.interrupted ? Json(*description.interrupted) : Json(nullptr);
+  json["notes"] = NotesOf(description, dataset);
   json["frames"] = {{"of", description.frames_chosen},
                     {"in", counts.frames},
                     {"tracked", counts.tracked},
@@ -257,6 +270,7 @@ std::string FormatSummary(const RunDescription& description,
   AddEvents(system.events(), json);
   const auto error = CompareWithGroundTruth(system, dataset);
   json["accuracy"] = error ? Accuracy(*error, dataset.sensor(), counts.frames) : Json(nullptr);
+  json["no_errors"] = error ? Json(nullptr) : Json(WhyNoErrors(dataset.info()));
   const auto main = system.MainMap();
   const auto causal = main ? Compare(system.CausalTrajectory(*main), dataset) : std::nullopt;
   json["accuracy_causal"] =

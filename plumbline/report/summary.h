@@ -51,6 +51,10 @@ struct LineMemory {
 };
 LineMemory MeasureLineMemory(const System& system);
 
+// Returns why a run on this data has no errors, where CompareWithGroundTruth has none: "no ground
+// truth with the data", or the file and line at fault.
+std::string WhyNoErrors(const DatasetInfo& info);
+
 // Compares the final trajectory of a map, or of the main map, with the data set's ground truth:
 // SE(3) alignment, Sim(3) for mono, windows of 3 s. Returns nullopt without ground truth,
 // trajectory, or common time.
@@ -68,7 +72,12 @@ struct RunDescription {
   std::size_t frames_chosen = 0;            // frames that the run was to process
   // Name of the signal that ended the run early, "SIGINT"; nullopt if none did.
   std::optional<std::string> interrupted = std::nullopt;
+  // One sentence for each thing that the images showed to be wrong with the data.
+  std::vector<std::string> notes = {};
 };
+
+// Returns the notes of the data set and those of the run.
+std::vector<std::string> NotesOf(const RunDescription& description, const Dataset& dataset);
 
 // Returns the text of summary.json.
 std::string FormatSummary(const RunDescription& description,

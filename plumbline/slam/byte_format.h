@@ -25,7 +25,8 @@ void Transfer(Archive& archive, T& time) {
 template <class Archive, Like<FrameRecord> T>
 void Transfer(Archive& archive, T& r) {
   TransferAll(archive, r.id, r.stamp_ns, r.status, r.reason, r.map, r.reference, r.from_reference);
-  TransferAll(archive, r.causal_world_from_camera, r.counts, r.keyframe, r.shed, r.demoted);
+  TransferAll(archive, r.causal_world_from_camera, r.causal_covariance, r.counts, r.keyframe);
+  TransferAll(archive, r.shed, r.demoted);
   Transfer(archive, r.times);
 }
 // Writes the log as a list of its records.

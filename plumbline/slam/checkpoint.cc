@@ -8,7 +8,7 @@
 #include "plumbline/map/state_format.h"
 #include "plumbline/slam/atlas_context.h"
 #include "plumbline/slam/byte_format.h"
-#include "plumbline/slam/system.h"
+#include "plumbline/slam/system_stages.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -72,6 +72,27 @@ LocalMapper::State MapperOf(const SavedAtlas& maps, LocalMapper::State mapper) {
 
 }  // namespace
 
+template <class Checkpoint>
+void System::CheckResumed(const Atlas& atlas, const Checkpoint& stage) const {
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    const FrameRecord record = frames_[i];
+    if (record.status != FrameStatus::kTracked) continue;
+    const Map* map = atlas.Find(atlas.Current(record.map));
+    if (map == nullptr || !map->Knows(record.reference)) Fail("a frame without its keyframe");
+  }
+  // Maps that do not grow are all alike to a camera that is found in one of them.
+  const MapId map = atlas.Current(map_);
+  const bool follows =
+      atlas.empty() || (read_only_ ? atlas.Find(map) != nullptr : map == atlas.active_id());
+  if (next_map_ != stage.history.next_map.value || !follows) {
+    Fail("other maps");
+  }
+  if (tracker_.next_keyframe() < atlas.NextKeyFrameId()) Fail("keyframes that are to come");
+  if (stage.versions.empty() || (tracker_.follows() && stage.versions.back().snapshot == nullptr)) {
+    Fail("a camera that is tracked without a map");
+  }
+}
+
 SavedRun System::Save() {
   Complete();
   const MappingStage::Checkpoint stage = mapping_.Save();
@@ -100,26 +121,6 @@ void System::Resume(SavedRun saved) {
   if (!frames_.empty()) newest_ = frames_.back();
   CheckResumed(saved.maps.atlas, stage);
   mapping_.Resume(std::move(saved.maps.atlas), stage);
-}
-
-void System::CheckResumed(const Atlas& atlas, const MappingStage::Checkpoint& stage) const {
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    const FrameRecord record = frames_[i];
-    if (record.status != FrameStatus::kTracked) continue;
-    const Map* map = atlas.Find(atlas.Current(record.map));
-    if (map == nullptr || !map->Knows(record.reference)) Fail("a frame without its keyframe");
-  }
-  // Maps that do not grow are all alike to a camera that is found in one of them.
-  const MapId map = atlas.Current(map_);
-  const bool follows =
-      atlas.empty() || (read_only_ ? atlas.Find(map) != nullptr : map == atlas.active_id());
-  if (next_map_ != stage.history.next_map.value || !follows) {
-    Fail("other maps");
-  }
-  if (tracker_.next_keyframe() < atlas.NextKeyFrameId()) Fail("keyframes that are to come");
-  if (stage.versions.empty() || (tracker_.follows() && stage.versions.back().snapshot == nullptr)) {
-    Fail("a camera that is tracked without a map");
-  }
 }
 
 }  // namespace plumbline

@@ -75,12 +75,41 @@ Rigid3 FrameLog::PoseOf(const Numbers& n) {
   return pose;
 }
 
+FrameLog::Triangle FrameLog::TriangleOf(const Matrix6d& covariance) {
+  Triangle triangle{};
+  std::size_t i = 0;
+  for (Eigen::Index row = 0; row < 6; ++row) {
+    for (Eigen::Index column = row; column < 6; ++column) triangle[i++] = covariance(row, column);
+  }
+  return triangle;
+}
+
+Matrix6d FrameLog::CovarianceOf(const Triangle& triangle) {
+  Matrix6d covariance;
+  std::size_t i = 0;
+  for (Eigen::Index row = 0; row < 6; ++row) {
+    for (Eigen::Index column = row; column < 6; ++column) {
+      covariance(row, column) = covariance(column, row) = triangle[i++];
+    }
+  }
+  return covariance;
+}
+
 void FrameLog::Store(const FrameRecord& record, Compact& entry) {
   entry.stamp_ns = record.stamp_ns;
   entry.from_reference = NumbersOf(record.from_reference.cam_from_keyframe);
   entry.unit = record.from_reference.unit;
   entry.has_causal = record.causal_world_from_camera.has_value();
   if (entry.has_causal) entry.causal = NumbersOf(*record.causal_world_from_camera);
+  if (!record.causal_covariance) {
+    entry.covariance = -1;
+  } else if (entry.covariance < 0) {
+    entry.covariance = static_cast<std::int32_t>(covariances_.size());
+    covariances_.Add(TriangleOf(*record.causal_covariance));
+  } else {
+    covariances_[static_cast<std::size_t>(entry.covariance)] =
+        TriangleOf(*record.causal_covariance);
+  }
   entry.reference = record.reference.value;
   entry.map = static_cast<std::int32_t>(record.map.value);
   const FrameCounts& c = record.counts;
@@ -103,6 +132,10 @@ FrameRecord FrameLog::operator[](std::size_t frame) const {
   record.reference = KeyFrameId{entry.reference};
   record.from_reference = {PoseOf(entry.from_reference), entry.unit};
   if (entry.has_causal) record.causal_world_from_camera = PoseOf(entry.causal);
+  if (entry.covariance >= 0) {
+    record.causal_covariance =
+        CovarianceOf(covariances_[static_cast<std::size_t>(entry.covariance)]);
+  }
   record.counts = {entry.counts[0], entry.counts[1], entry.counts[2], entry.counts[3]};
   record.keyframe = entry.keyframe;
   record.shed = static_cast<Shed>(entry.shed);
@@ -117,7 +150,7 @@ FrameRecord FrameLog::operator[](std::size_t frame) const {
 }
 
 std::size_t FrameLog::Memory() const {
-  return entries_.Memory() + stages_.Memory() + milliseconds_.Memory();
+  return entries_.Memory() + covariances_.Memory() + stages_.Memory() + milliseconds_.Memory();
 }
 
 }  // namespace plumbline

@@ -28,9 +28,10 @@ class WordTable {
   std::vector<std::string> words_;
 };
 
-// Keeps the records of all frames of a run in order, in little memory: 168 bytes a frame, and 5 for
-// each time. An hour with 30 frames a second and ten times each takes 24 MB. Times are rounded to
-// single precision; everything else comes out as it went in.
+// Keeps the records of all frames of a run in order, in little memory: 168 bytes a frame, as many
+// for the covariance of a pose, and 5 for each time. An hour with 30 frames a second and ten times
+// each takes 42 MB. Times are rounded to single precision; everything else comes out as it went in,
+// but of covariances the upper triangle alone counts.
 //
 // The log is used like a vector, but makes its elements when they are asked for.
 class FrameLog {
@@ -90,7 +91,8 @@ class FrameLog {
   std::size_t Memory() const;
 
  private:
-  using Numbers = std::array<double, 7>;  // rotation (4) and translation (3) of a Rigid3
+  using Numbers = std::array<double, 7>;    // rotation (4) and translation (3) of a Rigid3
+  using Triangle = std::array<double, 21>;  // upper triangle of a covariance, row by row
   struct Compact {
     std::int64_t stamp_ns = 0;
     Numbers from_reference{};
@@ -99,6 +101,7 @@ class FrameLog {
     std::int64_t reference = -1;
     std::uint32_t first_time = 0;  // index of the first of its times in milliseconds_
     std::int32_t map = -1;
+    std::int32_t covariance = -1;  // index in covariances_; -1: none
     std::array<std::int32_t, 4> counts{};
     std::uint16_t reason = 0;
     std::uint8_t status = 0, shed = 0;
@@ -132,9 +135,12 @@ class FrameLog {
 
   static Numbers NumbersOf(const Rigid3& pose);
   static Rigid3 PoseOf(const Numbers& numbers);
+  static Triangle TriangleOf(const Matrix6d& covariance);
+  static Matrix6d CovarianceOf(const Triangle& triangle);
   void Store(const FrameRecord& record, Compact& entry);
 
   Chunks<Compact> entries_;
+  Chunks<Triangle> covariances_;
   Chunks<std::uint8_t> stages_;  // one entry for each time in milliseconds_
   Chunks<float> milliseconds_;
   WordTable stage_names_, reasons_;

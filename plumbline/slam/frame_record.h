@@ -3,10 +3,11 @@
 #pragma once
 
 #include "plumbline/base/ids.h"
+#include "plumbline/geometry/se3.h"
 #include "plumbline/map/placement.h"
-#include "plumbline/slam/load_shedding.h"
+#include "plumbline/slam/shed.h"
 #include "plumbline/slam/stage_clock.h"
-#include "plumbline/tracking/pose_search.h"
+#include "plumbline/tracking/frame_counts.h"
 
 #include <array>
 #include <cstdint>
@@ -41,6 +42,11 @@ struct FrameRecord {
   // Pose world_from_camera of the left camera as delivered (before rectification), as it was first
   // reported and before later corrections; none where the frame got its pose later.
   std::optional<Rigid3> causal_world_from_camera;
+  // Covariance of causal_world_from_camera relative to the map, along the axes of the world, of [x,
+  // y, z, rotation about x, y, z] (PoseCovarianceInWorld), in square metres and radians, with one
+  // camera in the map's unit; none where there is no such pose, or it was not estimated from
+  // matches (TrackingResult::covariance).
+  std::optional<Matrix6d> causal_covariance;
   FrameCounts counts;  // matches and inliers of the pose, or of the attempt that failed
   bool keyframe = false;
   Shed shed = Shed::kNothing;  // what a live run left undone for this frame
@@ -50,6 +56,12 @@ struct FrameRecord {
   // mapping that ended since the last frame: part of "map" in inline mode, in other modes beside
   // the frame's own work.
   std::vector<StageTime> times;
+};
+
+// The covariance of a pose at one time (FrameRecord::causal_covariance).
+struct StampedCovariance {
+  std::int64_t stamp_ns = 0;
+  Matrix6d covariance;
 };
 
 }  // namespace plumbline

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/front_end.h"
 
+#include "plumbline/slam/load_shedding.h"
+
 #include <algorithm>
 #include <utility>
 

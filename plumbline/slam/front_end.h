@@ -7,28 +7,12 @@
 #include "plumbline/features/valid_region.h"
 #include "plumbline/geometry/calibration.h"
 #include "plumbline/image/image.h"
-#include "plumbline/image/pyramid.h"
 #include "plumbline/image/rectify.h"
-#include "plumbline/map/frame.h"
-#include "plumbline/slam/load_shedding.h"
-#include "plumbline/slam/stage_clock.h"
+#include "plumbline/slam/measured_frame.h"
 
-#include <cstdint>
 #include <memory>
 
 namespace plumbline {
-
-// A frame with the features that were measured in its images.
-struct MeasuredFrame {
-  std::int64_t stamp_ns = 0;
-  RectifiedFrame images;
-  std::shared_ptr<const IndexedFeatures> indexed;
-  // With a single camera the pyramid that its points were found in, since mapping aligns points in
-  // it (PointAligner); else null.
-  std::shared_ptr<const ImagePyramid> left_pyramid = nullptr;
-  StageClock clock;  // times the frame's stages, in later ones as well
-  Shed shed = Shed::kNothing;
-};
 
 // Turns images into features: the stage that needs no map and no earlier frame.
 class FrontEnd {

@@ -130,16 +130,20 @@ void MappingStage::ForgetEarlierSnapshots() {
   kept_.clear();
 }
 
+// Where memory runs out, nothing was submitted.
 void MappingStage::Submit(std::int64_t frame, Work work, bool starts_map) {
-  ++submitted_;
-  if (starts_map) ForgetEarlierSnapshots();
-  if (mode_ != RunMode::kLive || starts_map) {
-    dues_.push_back({starts_map ? frame : frame + 1 + lag_, submitted_});
-  }
-  {
+  const std::int64_t number = submitted_ + 1;
+  const bool has_due = mode_ != RunMode::kLive || starts_map;
+  if (has_due) dues_.push_back({starts_map ? frame : frame + 1 + lag_, number});
+  try {
     const std::lock_guard lock(mutex_);
-    tasks_.push_back({submitted_, frame, std::move(work), starts_map});
+    tasks_.push_back({number, frame, std::move(work), starts_map});
+  } catch (...) {
+    if (has_due) dues_.pop_back();
+    throw;
   }
+  submitted_ = number;
+  if (starts_map) ForgetEarlierSnapshots();
   task_added_.notify_one();
 }
 
@@ -267,6 +271,23 @@ void MappingStage::CheckMappingDone() const {
   PLUMBLINE_CHECK(LastDone() == submitted_, "maps are complete only after Finish");
 }
 
+std::vector<DemotedKeyFrame> MappingStage::NotMapped() const {
+  std::vector<DemotedKeyFrame> gone;
+  const auto add = [&](const NewKeyFrame& added) {
+    const KeyFrame& keyframe = added.keyframe;
+    if (!keyframe.parent.valid() || MapOf(atlas_, keyframe.id) != nullptr) return;
+    gone.push_back({keyframe.id, keyframe.frame.id, keyframe.parent, added.from_parent});
+  };
+  const std::lock_guard lock(mutex_);
+  if (failure_ == nullptr) return gone;
+  for (auto task = tasks_.rbegin(); task != tasks_.rend(); ++task) {
+    const auto* added = std::get_if<std::shared_ptr<const NewKeyFrame>>(&task->work);
+    if (added != nullptr) add(**added);
+  }
+  if (begun_) add(*begun_);
+  return gone;
+}
+
 const Atlas& MappingStage::atlas() const {
   CheckMappingDone();
   return atlas_;
@@ -339,11 +360,7 @@ void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
   // Where no other task follows, the end of the run gives the correction up; with a visit, too.
   const bool changes_nothing = std::holds_alternative<Visit>(task.work);
   if (mode_ == RunMode::kLive || !changes_nothing) TakeCorrection(task.frame);
-  if (task.starts_map) {
-    mapper_.StartNewMap(atlas_.Start());
-    centres_.clear();
-  }
-  Done done = std::visit([&](const auto& work) { return Do(work, task.frame); }, task.work);
+  Done done = task.starts_map ? StartMap(task) : DoWork(task);
   lock.lock();
   begun_ = nullptr;
   const auto& in_use = versions_.back().snapshot;
@@ -362,6 +379,25 @@ void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
   take_over(events_.loops, places_.loops());
   take_over(events_.joins, places_.joins());
   if (done.relocalization) outcomes_.push_back({task.number, *std::move(done.relocalization)});
+}
+
+MappingStage::Done MappingStage::DoWork(const Task& task) {
+  return std::visit([&](const auto& work) { return Do(work, task.frame); }, task.work);
+}
+
+// A map that fails before its first keyframe is in it is as if it never was.
+MappingStage::Done MappingStage::StartMap(const Task& task) {
+  Atlas before = atlas_;
+  try {
+    mapper_.StartNewMap(atlas_.Start());
+    centres_.clear();
+    return DoWork(task);
+  } catch (...) {
+    if (atlas_.maps().size() > before.maps().size() && atlas_.active().keyframes().empty()) {
+      atlas_ = std::move(before);
+    }
+    throw;
+  }
 }
 
 MappingStage::Done MappingStage::Do(const std::shared_ptr<const NewKeyFrame>& added,

@@ -31,8 +31,8 @@
 
 namespace plumbline {
 
-// A keyframe that mapping had no time for. The frame that it was made of becomes an ordinary frame.
-// Frames that refer to the keyframe refer to its parent from now on.
+// A keyframe that mapping had no time or memory for. The frame that it was made of becomes an
+// ordinary frame. Frames that refer to the keyframe refer to its parent from now on.
 struct DemotedKeyFrame {
   KeyFrameId id;
   FrameId frame;
@@ -181,9 +181,14 @@ class MappingStage {
 
   // The maps; none before the first keyframe. With a thread they may be asked for only after Finish
   // (BugError). After Finish threw, the maps are as mapping left them: a keyframe that was to be
-  // taken in may be missing, and the last change may be half done.
+  // taken in may be missing, but each change of a map happened whole or not at all (Map::Undo), and
+  // so did the start of a map.
   const Atlas& atlas() const;
   const std::map<MapId, Map>& maps() const { return atlas().maps(); }
+
+  // Returns the keyframes that mapping did not take in because it failed, the newest first; none
+  // before it failed. Keyframes that start maps are left out, since nothing is known beside them.
+  std::vector<DemotedKeyFrame> NotMapped() const;
 
   // The lines that local bundle adjustment held in memory. When it may be called: see atlas().
   const AdjustedLines& adjusted_lines() const;
@@ -268,6 +273,8 @@ class MappingStage {
   static void CheckFits(const Atlas& atlas, const Checkpoint& c);
   void TryNext(std::unique_lock<std::mutex>& lock);
   void DoNext(std::unique_lock<std::mutex>& lock);
+  Done DoWork(const Task& task);
+  Done StartMap(const Task& task);
   // `frame` is the frame at which the task was submitted.
   Done Do(const std::shared_ptr<const NewKeyFrame>& added, std::int64_t frame);
   Done Do(const MapStart& start, std::int64_t frame);

@@ -10,6 +10,7 @@
 #include "plumbline/slam/map_start.h"
 #include "plumbline/slam/options.h"
 #include "plumbline/tracking/frame_location.h"
+#include "plumbline/tracking/tracker.h"
 
 #include <cstdint>
 #include <deque>

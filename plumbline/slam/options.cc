@@ -13,11 +13,11 @@ namespace {
 template <class Value>
 void CheckLineMethod(const char* option, Value asked, Value done) {
   if (asked == done) return;
-  throw InputError(fmt::format(
-      "lines.{}: {} with a map needs a build of plumbline with the laboratory; configure "
-      "with -DPLUMBLINE_LAB=ON",
-      option,
-      NameOf(asked)));
+  throw InputError(
+      fmt::format("lines.{}: {} needs a build of plumbline with the laboratory; configure with "
+                  "-DPLUMBLINE_LAB=ON",
+                  option,
+                  NameOf(asked)));
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "plumbline/initialization/options.h"
 #include "plumbline/loop/options.h"
 #include "plumbline/mapping/options.h"
-#include "plumbline/tracking/tracker.h"
+#include "plumbline/tracking/options.h"
 
 #include <array>
 #include <type_traits>

@@ -6,9 +6,13 @@
 #include "plumbline/features/front_end_fingerprint.h"
 #include "plumbline/geometry/calibration_fingerprint.h"
 #include "plumbline/geometry/camera_difference.h"
+#include "plumbline/geometry/covariance.h"
+#include "plumbline/mapping/line_map.h"
 #include "plumbline/slam/atlas_context.h"
+#include "plumbline/slam/system_stages.h"
 #include "plumbline/tracking/projected_matches.h"
 
+#include <exception>
 #include <map>
 #include <string>
 #include <utility>
@@ -18,16 +22,6 @@
 
 namespace plumbline {
 namespace {
-
-// Returns the pose of the tracker's camera, which is the rectified one, at a map's first frame. The
-// map's world is the left camera as delivered.
-Rigid3 WorldFromFirstCamera(const Rectifier& rectifier) {
-  return {rectifier.rectified_left_from_left().conjugate(), Eigen::Vector3d::Zero()};
-}
-
-// A live run that lost the camera looks for it in its map for at least this long before it starts
-// another map, since the next frames may show known surroundings again.
-constexpr double kLivePatienceSeconds = 1;
 
 // The camera's motion between the last two views of a map, as a left tangent per second.
 Vector6d LastVelocity(const InitialMap& initial) {
@@ -54,14 +48,12 @@ System::System(const Calibration& calibration,
                const Execution& execution)
     : options_(WithLineMethod(options)),
       execution_(execution),
-      front_end_(calibration, options.features),
-      imaging_{front_end_.rectifier().camera(), options.features.orb.scale_factor},
-      mapping_(imaging_, options_, execution_),
-      tracker_(imaging_,
-               options_.tracking,
-               PoseEstimator(imaging_.camera, options_.lines, options_.cutting),
-               WorldFromFirstCamera(front_end_.rectifier()),
-               options_.slam.mode == RunMode::kLive ? kLivePatienceSeconds : 0) {
+      stages_(std::make_unique<SystemStages>(calibration, options_, execution_)),
+      front_end_(stages_->front_end),
+      imaging_(stages_->imaging),
+      mapping_(stages_->mapping),
+      tracker_(stages_->tracker),
+      monocular_start_(stages_->monocular_start) {
   CheckOptions(options_);
   if (imaging_.camera.baseline == 0) {
     if (options_.tracking.reference == TrackingReference::kLastFrame) {
@@ -74,6 +66,16 @@ System::System(const Calibration& calibration,
 }
 
 System::~System() = default;
+
+void System::Observe(std::function<void(const Atlas&, const LoopAttempt&)> observer) {
+  mapping_.Observe(std::move(observer));
+}
+
+std::size_t System::TasksWaiting() const { return mapping_.Waiting(); }
+bool System::MapOnce() { return mapping_.WorkOnce(); }
+const Atlas& System::atlas() const { return mapping_.atlas(); }
+const AdjustedLines& System::adjusted_lines() const { return mapping_.adjusted_lines(); }
+const Rectifier& System::rectifier() const { return front_end_.rectifier(); }
 
 std::optional<InitializationCounts> System::initialization_counts() const {
   if (!monocular_start_) return std::nullopt;
@@ -142,7 +144,10 @@ const FrameRecord& System::Track(MeasuredFrame measured) {
   clock.Done(start ? "initialize" : "track");
   record.times = clock.Finish();
   view_ = {std::move(measured.images), result.frame};
-  if (!start) unfinished_ = {std::move(result), measured.shed, std::move(measured.left_pyramid)};
+  if (!start) {
+    unfinished_ = std::make_unique<UnfinishedFrame>(
+        UnfinishedFrame{std::move(result), measured.shed, std::move(measured.left_pyramid)});
+  }
   return Keep(std::move(record));
 }
 
@@ -173,7 +178,7 @@ TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, S
 void System::Complete() {
   if (!unfinished_) return;
   StageClock clock;
-  Unfinished unfinished = std::move(*unfinished_);
+  UnfinishedFrame unfinished = std::move(*unfinished_);
   unfinished_.reset();
   TrackingResult& result = unfinished.result;
   const std::int64_t frame = result.frame.id.value;
@@ -198,7 +203,7 @@ void System::Complete() {
   frames_.AddTimes(times);
 }
 
-void System::CompleteRightLines(Unfinished& unfinished, StageClock& clock) {
+void System::CompleteRightLines(UnfinishedFrame& unfinished, StageClock& clock) {
   TrackingResult& result = unfinished.result;
   if (!tracker_.WantsRightLines(result)) return;
   tracker_.Complete(front_end_.WithRightLines(view_.images, unfinished.shed, result.frame.indexed),
@@ -213,6 +218,7 @@ std::shared_ptr<const MapSnapshot> System::TakeRelocalized(FrameId frame) {
   const auto outcome = mapping_.TakeRelocalization();
   if (!outcome) return nullptr;
   relocalizing_ = false;
+  if (!outcome->found) tracker_.NotFound();
   if (!outcome->found || tracker_.state() != TrackerState::kLost) return nullptr;
   if (TrackedSince(outcome->found->frame.id)) return nullptr;
   tracker_.FollowFrom(*outcome->found, *outcome->snapshot);
@@ -237,10 +243,12 @@ bool System::TrackedSince(FrameId frame) const {
   return false;
 }
 
-// Asks for the place of a lost frame, unless such a request is still unanswered.
+// Asks for the place of a lost frame, unless such a request is still unanswered, or the frame shows
+// too little to be found anywhere.
 void System::Relocalize(const TrackingResult& result) {
   if (result.state != TrackerState::kLost || relocalizing_ || !options_.relocalization.enabled)
     return;
+  if (result.failure == TrackingFailure::kTooFewFeatures) return;
   mapping_.Submit(result.frame.id.value, RelocalizationRequest{result.frame});
   relocalizing_ = true;
 }
@@ -365,6 +373,9 @@ void System::RecordTracking(const TrackingResult& result, FrameRecord& record) {
   record.reference = result.reference;
   record.from_reference = result.from_reference;
   record.causal_world_from_camera = AsDelivered(*result.cam_from_world);
+  if (result.covariance) {
+    record.causal_covariance = PoseCovarianceInWorld(*result.cam_from_world, *result.covariance);
+  }
 }
 
 std::vector<StageTime> System::TakeMappingTimes() {
@@ -375,18 +386,21 @@ std::vector<StageTime> System::TakeMappingTimes() {
   return times;
 }
 
-// Marks frames as lost whose keyframe is in no map, because mapping failed before it got to that
-// keyframe.
+// Lets frames whose keyframe is in no map, because mapping failed before it got to that keyframe,
+// refer to its parent. Marks them as lost where there is none, or where tracking failed before it
+// handed the keyframe over.
 void System::LoseFramesNotMapped() {
+  for (const DemotedKeyFrame& gone : mapping_.NotMapped()) Demote(gone);
   const auto has_place = [&](const FrameRecord& record) {
     const Map* map = atlas().Find(atlas().Current(record.map));
     return map != nullptr && map->Knows(record.reference);
   };
   for (std::size_t i = 0; i < frames_.size(); ++i) {
-    frames_.Change(i, [&](FrameRecord& record) {
-      if (record.status != FrameStatus::kTracked || has_place(record)) return;
-      record.status = FrameStatus::kLost;
-      record.reason = kNotMapped;
+    const FrameRecord record = frames_[i];
+    if (record.status != FrameStatus::kTracked || has_place(record)) continue;
+    frames_.Change(i, [](FrameRecord& lost) {
+      lost.status = FrameStatus::kLost;
+      lost.reason = kNotMapped;
     });
   }
 }
@@ -427,13 +441,18 @@ void System::LookAtMaps(std::function<void(const Atlas&, const MapEvents&)> look
 
 void System::Finish(const StopCheck& stop) {
   line_maps_.clear();
-  try {
-    Complete();
-    mapping_.Finish(stop);
-  } catch (...) {
-    LoseFramesNotMapped();
-    throw;
-  }
+  std::exception_ptr failure;
+  const auto keeping = [&failure](const auto& step) {
+    try {
+      step();
+    } catch (...) {
+      if (!failure) failure = std::current_exception();
+    }
+  };
+  keeping([&] { Complete(); });
+  keeping([&] { mapping_.Finish(stop); });
+  LoseFramesNotMapped();
+  if (failure) std::rethrow_exception(failure);
   const std::vector<StageTime> times = TakeMappingTimes();
   if (!frames_.empty()) frames_.AddTimes(times);
   if (!monocular_start_) return;
@@ -466,6 +485,7 @@ Trajectory System::FinalTrajectory(MapId map) const {
   const Map& owner = MapOf(map);
   for (const FrameRecord& record : frames_) {
     if (record.status != FrameStatus::kTracked || atlas().Current(record.map) != map) continue;
+    if (!owner.Knows(record.reference)) continue;  // Finish failed before it lost the frame
     trajectory.push_back(
         {record.stamp_ns,
          AsDelivered(PoseBeside(owner.PlaceOf(record.reference), record.from_reference))});
@@ -515,6 +535,16 @@ Trajectory System::CausalTrajectory(MapId map) const {
     }
   }
   return trajectory;
+}
+
+std::vector<StampedCovariance> System::CausalCovariances(MapId map) const {
+  std::vector<StampedCovariance> covariances;
+  for (const FrameRecord& record : frames_) {
+    if (record.causal_covariance && record.map == map) {
+      covariances.push_back({record.stamp_ns, *record.causal_covariance});
+    }
+  }
+  return covariances;
 }
 
 Session System::session() const {

@@ -6,21 +6,20 @@
 #include "plumbline/geometry/trajectory.h"
 #include "plumbline/image/image.h"
 #include "plumbline/image/rectify.h"
-#include "plumbline/map/map.h"
+#include "plumbline/map/atlas.h"
+#include "plumbline/map/frame.h"
 #include "plumbline/map/saved_atlas.h"
 #include "plumbline/map/saved_run.h"
 #include "plumbline/map/session.h"
-#include "plumbline/mapping/line_map.h"
+#include "plumbline/mapping/adjusted_lines.h"
+#include "plumbline/mapping/mapped_line.h"
 #include "plumbline/slam/execution.h"
 #include "plumbline/slam/frame_log.h"
-#include "plumbline/slam/front_end.h"
-#include "plumbline/slam/load_shedding.h"
 #include "plumbline/slam/map_events.h"
-#include "plumbline/slam/mapping_stage.h"
-#include "plumbline/slam/monocular_start.h"
+#include "plumbline/slam/measured_frame.h"
 #include "plumbline/slam/options.h"
+#include "plumbline/slam/shed.h"
 #include "plumbline/slam/stage_clock.h"
-#include "plumbline/tracking/tracker.h"
 
 #include <cstdint>
 #include <functional>
@@ -31,6 +30,20 @@
 #include <vector>
 
 namespace plumbline {
+
+struct DemotedKeyFrame;
+struct ImagingModel;
+struct InitialMap;
+struct InitializationCounts;
+struct LoopAttempt;
+struct MapSnapshot;
+struct SystemStages;
+struct TrackingResult;
+struct UnfinishedFrame;
+class FrontEnd;
+class MappingStage;
+class MonocularStart;
+class Tracker;
 
 // What Process leaves of a frame beside its record, for display.
 struct FrameView {
@@ -84,7 +97,7 @@ class System {
   // Sets an observer, for measurements, of the keyframes that are compared with each new one and
   // what becomes of the comparison. It is called in the thread that maps. To be called before the
   // first frame.
-  void Observe(PlaceObserver observer) { mapping_.Observe(std::move(observer)); }
+  void Observe(std::function<void(const Atlas&, const LoopAttempt&)> observer);
 
   // Processes a frame and returns what became of it: Measure, Track and Complete in one call. The
   // result is valid until the next frame. Throws InputError when an image is missing or has another
@@ -111,10 +124,10 @@ class System {
                           Shed shed = Shed::kNothing);
   // Returns the number of tasks that wait for mapping, most of them keyframes. CopyMaps and
   // LookAtMaps do not count.
-  std::size_t TasksWaiting() const { return mapping_.Waiting(); }
+  std::size_t TasksWaiting() const;
   // Does the next task of mapping; returns false when none waits. For live runs without threads
   // (Execution).
-  bool MapOnce() { return mapping_.WorkOnce(); }
+  bool MapOnce();
   // Calls `take` with a copy of the maps as they would be saved (MoveFirstKeyFramesBack), and with
   // what SaveAtlas needs beside them, once mapping has done what was submitted so far. The call
   // happens in the thread that maps. Changes no result. To be called in the thread that tracks,
@@ -157,16 +170,14 @@ class System {
   const FrameLog& frames() const { return frames_; }
   // The maps. They are complete after Finish; except inline, they may not be asked for before that
   // (BugError).
-  const Atlas& atlas() const { return mapping_.atlas(); }
+  const Atlas& atlas() const;
   // What the maps were made with, for SaveAtlas. When it may be called: see atlas().
   AtlasContext Context() const;
   // The maps of the atlas by id. When it may be called: see atlas().
-  const std::map<MapId, Map>& maps() const { return mapping_.maps(); }
+  const std::map<MapId, Map>& maps() const { return atlas().maps(); }
   // The lines that local bundle adjustment held in memory, summed over all its windows. When it may
   // be called: see atlas().
-  const AdjustedLines& adjusted_lines() const { return mapping_.adjusted_lines(); }
-  // What mapping remembers of the maps. When it may be called: see atlas().
-  LocalMapper::State mapper_state() const { return mapping_.mapper_state(); }
+  const AdjustedLines& adjusted_lines() const;
   // This run of the camera so far, as map files keep it. Its id is made of the first frame's
   // features and stamp, the rig and the options, so that the same input is the same session
   // wherever it lies.
@@ -181,7 +192,7 @@ class System {
   // The rectified camera, which all stages behind rectification see.
   const RectifiedCamera& camera() const { return rectifier().camera(); }
   // Makes rectified images of those delivered.
-  const Rectifier& rectifier() const { return front_end_.rectifier(); }
+  const Rectifier& rectifier() const;
   // What the starts of maps from one camera have done in this run; nullopt with other sensors.
   std::optional<InitializationCounts> initialization_counts() const;
   // Lines of which only a piece took part in the pose of a frame, over all frames of this run
@@ -209,6 +220,9 @@ class System {
   // Returns each pose as it was first reported. `map` may have been joined with another one since;
   // a map without poses gives none.
   Trajectory CausalTrajectory(MapId map) const;
+  // Returns the covariances of the poses of CausalTrajectory, as far as they are known
+  // (FrameRecord::causal_covariance).
+  std::vector<StampedCovariance> CausalCovariances(MapId map) const;
   // Returns the lines of a map that are fit to be given out, in its world (MakeLineMap). They are
   // made when first asked for, until `stop`, and kept. To be called after Finish.
   const std::vector<MappedLine>& LineMap(MapId map, const StopCheck& stop = {}) const;
@@ -228,21 +242,17 @@ class System {
     visit(self.tracker_, self.map_, self.next_map_, self.first_keyframe_, self.relocalizing_);
     visit(self.relocalizations_, self.loaded_, self.read_only_, self.frames_, self.session_);
   }
-  void CheckResumed(const Atlas& atlas, const MappingStage::Checkpoint& stage) const;
+  // Throws InputError where the saved stage does not fit.
+  template <class Checkpoint>
+  void CheckResumed(const Atlas& atlas, const Checkpoint& stage) const;
   Rigid3 AsDelivered(const Rigid3& rectified_cam_from_world) const;
   std::shared_ptr<const MapSnapshot> TakeRelocalized(FrameId frame);
   bool TrackedSince(FrameId frame) const;
   void Relocalize(const TrackingResult& result);
   // Returns the number of this run among the runs that made the maps.
   SessionId session_id() const;
-  // A frame whose pose was returned, and which still leaves something to do for the map.
-  struct Unfinished {
-    TrackingResult result;
-    Shed shed = Shed::kNothing;
-    std::shared_ptr<const ImagePyramid> left_pyramid = nullptr;  // MeasuredFrame::left_pyramid
-  };
   TrackingResult FollowMap(MeasuredFrame& measured, FrameRecord& record, StageClock& clock);
-  void CompleteRightLines(Unfinished& unfinished, StageClock& clock);
+  void CompleteRightLines(UnfinishedFrame& unfinished, StageClock& clock);
   // Returns the times of the steps of mapping that ended since the last call.
   std::vector<StageTime> TakeMappingTimes();
   TrackingResult OfferToStart(const MeasuredFrame& measured, FrameRecord& record);
@@ -258,12 +268,14 @@ class System {
   SlamOptions options_;
   std::int64_t cut_lines_ = 0;
   Execution execution_;
-  FrontEnd front_end_;
-  ImagingModel imaging_;
-  MappingStage mapping_;
-  Tracker tracker_;
-  std::unique_ptr<MonocularStart> monocular_start_;  // null where depth is measured
-  MapId map_;                                        // map that is tracked against
+  // The stages, behind a pointer, so that this header does not bring theirs along.
+  std::unique_ptr<SystemStages> stages_;
+  FrontEnd& front_end_;
+  ImagingModel& imaging_;
+  MappingStage& mapping_;
+  Tracker& tracker_;
+  std::unique_ptr<MonocularStart>& monocular_start_;
+  MapId map_;  // map that is tracked against
   std::int64_t next_map_ = 0;
   KeyFrameId first_keyframe_{0};  // first id of this system's own keyframes
   bool relocalizing_ = false;     // a place was asked for, without an answer yet
@@ -273,8 +285,8 @@ class System {
   FrameLog frames_;
   FrameRecord newest_;  // record of the last frame
   FrameView view_;
-  std::optional<Unfinished> unfinished_;
-  Session session_;  // without the stamps, which session() adds
+  std::unique_ptr<UnfinishedFrame> unfinished_;  // null where there is none
+  Session session_;                              // without the stamps, which session() adds
   mutable std::map<MapId, std::vector<MappedLine>> line_maps_;  // line maps made so far
 };
 

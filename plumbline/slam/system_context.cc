@@ -5,7 +5,7 @@
 #include "plumbline/geometry/calibration_fingerprint.h"
 #include "plumbline/map/byte_format.h"
 #include "plumbline/slam/atlas_context.h"
-#include "plumbline/slam/system.h"
+#include "plumbline/slam/system_stages.h"
 
 namespace plumbline {
 
@@ -36,7 +36,7 @@ AtlasContext System::ContextWithoutMaps() const {
 AtlasContext System::Context() const {
   if (loaded_ && read_only_) return *loaded_;
   AtlasContext context = ContextWithoutMaps();
-  AddMaps(atlas(), mapper_state(), context);
+  AddMaps(atlas(), mapping_.mapper_state(), context);
   return context;
 }
 

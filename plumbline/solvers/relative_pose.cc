@@ -4,6 +4,7 @@
 
 #include "plumbline/base/chi2.h"
 #include "plumbline/base/elementary.h"
+#include "plumbline/base/random.h"
 #include "plumbline/base/units.h"
 #include "plumbline/geometry/epipolar.h"
 #include "plumbline/solvers/epipolar_cost.h"

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "plumbline/base/options.h"
-#include "plumbline/base/random.h"
 #include "plumbline/geometry/se3.h"
 #include "plumbline/solvers/ray_match.h"
 
@@ -16,6 +15,8 @@
 #include <Eigen/Core>
 
 namespace plumbline {
+
+class Rng;
 
 enum class RelativePoseModel { kEssential, kHomography };
 

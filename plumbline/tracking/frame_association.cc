@@ -267,7 +267,9 @@ ExpectedLandmarks MatchSnapshot(const ImagingModel& imaging,
                                 const ProjectionSearchOptions& options,
                                 const MapSnapshot& snapshot,
                                 FrameAssociation& association) {
-  auto& [candidate_points, candidate_lines, matches] = association;
+  std::vector<CandidatePoint>& candidate_points = association.points;
+  std::vector<CandidateLine>& candidate_lines = association.lines;
+  FrameMatches& matches = association.matches;
   auto points = ProjectAll(snapshot.points, [&](const PointModel& point) {
     return ProjectPoint(imaging, cam_from_world, point);
   });

@@ -24,9 +24,12 @@ PosePrior MotionModel::Predict(const Rigid3& last_pose, double seconds) const {
   return prior;
 }
 
-void MotionModel::Observe(const Rigid3& last_pose, const PoseEstimate& pose, double seconds) {
+const Matrix6d& MotionModel::Observe(const Rigid3& last_pose,
+                                     const PoseEstimate& pose,
+                                     double seconds) {
   velocity_ = LogSe3(pose.cam_from_world * Inverse(last_pose)) / seconds;
   spread_ = Spread{pose.information.inverse(), pose.scene_depth};
+  return spread_->covariance;
 }
 
 bool MotionModel::LastPoseIsKnownTo(double limit) const {

@@ -19,8 +19,9 @@ class MotionModel {
   // the prediction is the last pose without information.
   PosePrior Predict(const Rigid3& last_pose, double seconds) const;
 
-  // Learns the velocity from the last pose and that of the frame `seconds` later.
-  void Observe(const Rigid3& last_pose, const PoseEstimate& pose, double seconds);
+  // Learns the velocity from the last pose and that of the frame `seconds` later. Returns the
+  // covariance of the latter, of its left perturbation [rotation, translation].
+  const Matrix6d& Observe(const Rigid3& last_pose, const PoseEstimate& pose, double seconds);
   // Begins from a velocity alone (left tangent per second); how well the last pose is known is then
   // unknown.
   void Begin(const Vector6d& velocity);

@@ -110,4 +110,25 @@ constexpr auto FixedOptions(std::type_identity<TrackingOptions>) {
                     FixedOption{"pose.gate_scale", "1"}};
 }
 
+// Whether, and for how long, a lost camera is looked for in its map.
+struct RelocalizationOptions {
+  bool enabled = true;
+  // Lost frames in a map of an earlier run after which a new map starts; and in every map, frames
+  // that show too little for a pose and do not count as lost.
+  int patience = 200;
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, RelocalizationOptions& o) {
+  visit("enabled", o.enabled, "look for a lost camera in the map by what it shows");
+  visit("patience",
+        o.patience,
+        "frames lost in the map of an earlier run after which a new map starts",
+        Range{1, 1000000});
+}
+
+constexpr auto FixedOptions(std::type_identity<RelocalizationOptions>) {
+  return std::array{FixedOption{"min_inliers", "30"}};
+}
+
 }  // namespace plumbline

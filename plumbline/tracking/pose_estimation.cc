@@ -34,18 +34,17 @@ void AddPoints(const Features& features, const FrameAssociation& association, Ma
   }
 }
 
-void AddLine(const LineModel& line,
+void AddLine(const CutCandidate& candidate,
              const LineMeasurement& measurement,
-             double sigma_px,
              std::size_t feature,
              const LineOptions& options,
-             const std::optional<Rigid3>& made_from,
              MatchedProblem& out) {
+  const LineModel& line = *candidate.model;
   PoseProblem::LineMatch match{line.line, measurement, static_cast<int>(feature)};
   options.method.weigh_match(out.problem, line, options.weights(), match);
   out.problem.lines.push_back(match);
   out.line_feature.push_back(feature);
-  out.cut_candidates.push_back({&line, sigma_px, made_from});
+  out.cut_candidates.push_back(candidate);
 }
 
 void AddLines(const Features& features,
@@ -56,14 +55,12 @@ void AddLines(const Features& features,
     const int match = association.matches.line_of_feature[i];
     if (match < 0) continue;
     const CandidateLine& candidate = association.lines[static_cast<std::size_t>(match)];
-    const LineModel& line = candidate.model;
-    const std::optional<Rigid3> made_from =
-        candidate.id.valid() ? std::nullopt : association.made_from;
-    const double sigma_px = features.lines[i].sigma_px;
-    AddLine(
-        line, MeasureLeftLine(features, i, lines.weights()), sigma_px, i, lines, made_from, out);
+    CutCandidate cut{&candidate.model, features.lines[i].sigma_px, association.made_from};
+    if (candidate.id.valid()) cut.made_from.reset();
+    AddLine(cut, MeasureLeftLine(features, i, lines.weights()), i, lines, out);
     if (const auto right = MeasureRightLine(features, i, lines.weights())) {
-      AddLine(line, *right, features.line_right[i]->sigma_px, i, lines, made_from, out);
+      cut.sigma_px = features.line_right[i]->sigma_px;
+      AddLine(cut, *right, i, lines, out);
     }
   }
 }

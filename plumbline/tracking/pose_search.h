@@ -7,6 +7,7 @@
 #include "plumbline/map/frame.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/tracking/frame_association.h"
+#include "plumbline/tracking/frame_counts.h"
 #include "plumbline/tracking/options.h"
 #include "plumbline/tracking/pose_estimation.h"
 
@@ -24,13 +25,6 @@ struct LastFrame {
     return frame.points.size() == association.matches.point_of_feature.size() &&
            frame.lines.size() == association.matches.line_of_feature.size();
   }
-};
-
-// How many landmarks a frame was matched with, and how many of these agree with its pose.
-struct FrameCounts {
-  int matched_points = 0, matched_lines = 0;
-  int inlier_points = 0, inlier_lines = 0;
-  int cut_lines = 0;  // of the pose that was accepted (PoseEstimate::cut_lines)
 };
 
 // A pose that was found for a frame, with the matches that it was found by.

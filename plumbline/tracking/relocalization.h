@@ -3,39 +3,16 @@
 #pragma once
 
 #include "plumbline/association/projection_search.h"
-#include "plumbline/base/options.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/map.h"
 #include "plumbline/tracking/options.h"
 #include "plumbline/tracking/pose_search.h"
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <type_traits>
 
 namespace plumbline {
-
-// Whether, and for how long, a lost camera is looked for in its map.
-struct RelocalizationOptions {
-  bool enabled = true;
-  // Lost frames in a map of an earlier run after which a new map starts.
-  int patience = 200;
-};
-
-template <class Visitor>
-void VisitFields(Visitor&& visit, RelocalizationOptions& o) {
-  visit("enabled", o.enabled, "look for a lost camera in the map by what it shows");
-  visit("patience",
-        o.patience,
-        "frames lost in the map of an earlier run after which a new map starts",
-        Range{1, 1000000});
-}
-
-constexpr auto FixedOptions(std::type_identity<RelocalizationOptions>) {
-  return std::array{FixedOption{"min_inliers", "30"}};
-}
 
 // A frame whose pose in the map was found by appearance.
 struct Relocalized {

@@ -28,6 +28,14 @@ bool ShowsMore(const FrameAssociation& a, const FrameAssociation& b) {
   return map_a > map_b;
 }
 
+// Changes the unit in which a pose is known: all lengths are multiplied by `scale`.
+void ChangeUnit(double scale, PoseEstimate& pose) {
+  if (scale == 1) return;
+  pose.information.bottomRows<3>() /= scale;
+  pose.information.rightCols<3>() /= scale;
+  pose.scene_depth *= scale;
+}
+
 }  // namespace
 
 TrackerState NextState(TrackerState state, bool has_pose, int lost_frames, int new_map_after) {
@@ -40,12 +48,12 @@ Tracker::Tracker(const ImagingModel& imaging,
                  const TrackingOptions& options,
                  const PoseEstimator& estimator,
                  const Rigid3& world_from_first_cam,
-                 double min_lost_seconds)
+                 const LossPatience& loss)
     : options_(options),
       search_(imaging, options, estimator),
       monocular_(imaging.camera.baseline == 0),
       first_cam_from_world_(Inverse(world_from_first_cam)),
-      min_lost_seconds_(min_lost_seconds) {}
+      loss_(loss) {}
 
 TrackingResult Tracker::Track(FrameId id,
                               std::int64_t stamp_ns,
@@ -106,11 +114,15 @@ TrackingResult Tracker::Follow(Frame frame,
   const auto today = snapshot.places.find(seen->centre);
   const Placement centre = today == snapshot.places.end() ? before : today->second;
   Rigid3& pose = attempt.pose.cam_from_world;
-  if (seen != &snapshot)
+  if (seen != &snapshot) {
     pose = PoseBeside(centre, {pose * Inverse(before.cam_from_world), before.unit});
-  motion_.Observe(last_pose, attempt.pose, seconds);
+    ChangeUnit(centre.unit / before.unit, attempt.pose);
+  }
+  const Matrix6d covariance = motion_.Observe(last_pose, attempt.pose, seconds);
   frame.cam_from_world = pose;
-  return Succeed(std::move(frame), std::move(found), seen->centre, centre, wanted);
+  TrackingResult result = Succeed(std::move(frame), std::move(found), seen->centre, centre, wanted);
+  result.covariance = covariance;
+  return result;
 }
 
 // Searches near the predicted pose. It searches by appearance as well where that finds no pose,
@@ -215,7 +227,7 @@ bool Tracker::WantsKeyFrame(const Frame& frame,
 
 TrackingResult Tracker::Succeed(
     Frame frame, Finding found, KeyFrameId reference, const Placement& place, bool wants_keyframe) {
-  lost_frames_ = 0;
+  ForgetLoss();
   state_ = NextState(state_, true, 0, options_.new_map_after);
   TrackingResult result;
   result.counts = found.counts;
@@ -241,15 +253,15 @@ TrackingResult Tracker::Succeed(
 }
 
 TrackingResult Tracker::Fail(Frame frame, TrackingFailure failure, FrameCounts counts) {
-  ++lost_frames_;
-  // A map that loses the camera right after its start was usually a bad one.
-  const bool trial = trial_keyframes_ > 0;
-  const double lost_seconds =
-      last_ ? 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns) : 0;
-  const bool wait = use_ ? use_->read_only : !trial && lost_seconds < min_lost_seconds_;
-  const int usual = use_ ? use_->patience : options_.new_map_after;
-  const int patience = wait ? lost_frames_ + 1 : trial ? 1 : usual;
-  state_ = NextState(state_, false, lost_frames_, patience);
+  const bool blind = state_ != TrackerState::kInitializing &&
+                     failure != TrackingFailure::kMapWithdrawn && IsBlind(frame.features());
+  if (blind) {
+    failure = TrackingFailure::kTooFewFeatures;
+    asked_ = false;
+  }
+  // What shows nothing says nothing against the map.
+  ++(blind && blind_frames_ < loss_.blind_frames ? blind_frames_ : lost_frames_);
+  state_ = NextState(state_, false, lost_frames_, Patience(frame, blind));
   motion_.Forget();
   TrackingResult result;
   result.state = state_;
@@ -257,6 +269,38 @@ TrackingResult Tracker::Fail(Frame frame, TrackingFailure failure, FrameCounts c
   result.counts = counts;
   result.frame = std::move(frame);
   return result;
+}
+
+void Tracker::ForgetLoss() {
+  lost_frames_ = 0;
+  blind_frames_ = 0;
+  asked_ = false;
+}
+
+// Whether a frame shows less than a lost camera needs for its pose. Where depth is measured, points
+// without depth do not count, since no map can start with them and noise has many.
+bool Tracker::IsBlind(const Features& features) const {
+  const std::size_t seen = features.points.size() + features.lines.size();
+  const auto depths = std::count_if(features.point_disparity.begin(),
+                                    features.point_disparity.end(),
+                                    [](const auto& disparity) { return disparity.has_value(); }) +
+                      std::ssize(features.lines);
+  const std::int64_t counted = monocular_ ? static_cast<std::int64_t>(seen) : depths;
+  return counted < kFewestUnpredictedInliers;
+}
+
+// Returns the number of lost frames after which another map starts.
+int Tracker::Patience(const Frame& frame, bool blind) const {
+  // A map that loses the camera right after its start was usually a bad one.
+  const bool trial = trial_keyframes_ > 0;
+  const double lost_seconds =
+      last_ ? 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns) : 0;
+  const bool unasked = blind_frames_ > 0 && (blind || !asked_);
+  const bool wait =
+      unasked || (use_ ? use_->read_only : !trial && lost_seconds < loss_.min_seconds);
+  if (wait) return lost_frames_ + 1;
+  const int usual = use_ ? use_->patience : options_.new_map_after;
+  return trial ? 1 : usual;
 }
 
 NewKeyFrame Tracker::MakeKeyFrame(const Frame& frame,
@@ -308,7 +352,7 @@ TrackingResult Tracker::StartMap(Frame frame) {
   result.reference = newest_keyframe_;
   state_ = NextState(state_, true, 0, options_.new_map_after);
   result.state = state_;
-  lost_frames_ = 0;
+  ForgetLoss();
   motion_.Forget();
   const std::size_t points = frame.points.size();
   const std::size_t lines = frame.lines.size();
@@ -343,7 +387,7 @@ TrackingResult Tracker::StartFrom(const MapSnapshot& snapshot, const Vector6d& v
   frames_since_keyframe_ = 0;
   use_.reset();
   scores_ = {};
-  lost_frames_ = 0;
+  ForgetLoss();
   trial_keyframes_ = options_.trial_keyframes;
   motion_.Begin(velocity);
   state_ = NextState(state_, true, 0, options_.new_map_after);

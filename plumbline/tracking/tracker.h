@@ -34,7 +34,8 @@ constexpr auto EnumNames(std::type_identity<TrackerState>) {
 // Why a frame has no pose.
 enum class TrackingFailure {
   kNone,
-  kTooFewFeatures,     // too few points and lines have depth (stereo, RGB-D) to start a map
+  kTooFewFeatures,     // the image shows too little for a pose, or too little with depth (stereo,
+                       // RGB-D) to start a map
   kNotRelocalized,     // nothing is known of the camera's place in the map yet
   kTooFewMatches,      // too few landmarks were found in the image
   kTooFewInliers,      // too few of the found landmarks agree on a pose
@@ -72,6 +73,17 @@ struct MapUse {
   int patience = 200;        // lost frames after which another map starts
 };
 
+// How long a lost camera is looked for before another map may start, beyond tracking.new_map_after.
+struct LossPatience {
+  // Least time since the last pose. It does not hold in a map that is on trial or was made by an
+  // earlier run.
+  double min_seconds = 0;
+  // Frames that show too little for a pose (a covered lens, darkness) and do not count as lost.
+  // Once there was one, no map starts before the old one was asked for a frame that shows more
+  // (NotFound).
+  int blind_frames = 0;
+};
+
 // What a live run tells the tracker in addition to the frame and the map.
 struct LiveConditions {
   // The map around an earlier keyframe, which is tried by appearance where the map gives no pose.
@@ -87,7 +99,13 @@ struct TrackingResult {
   TrackingFailure failure = TrackingFailure::kNone;
   FrameCounts counts;
   std::optional<Rigid3> cam_from_world;  // none where the frame has no pose
-  KeyFrameId reference;                  // the keyframe that the pose refers to from now on
+  // Covariance of the left perturbation [rotation, translation] of cam_from_world, by the inliers
+  // and the motion so far, relative to a map that counts as exact (the depths of points from a
+  // single frame do not, where tracking.point_covariance is on). None where the pose was not
+  // estimated from matches: that of a first frame is chosen, that of a monocular start is adjusted
+  // with its map.
+  std::optional<Matrix6d> covariance;
+  KeyFrameId reference;  // the keyframe that the pose refers to from now on
   RelativePose from_reference;
   std::optional<NewKeyFrame> keyframe;
   bool starts_map = false;  // the keyframe is the first of a new map
@@ -112,14 +130,11 @@ struct TrackingResult {
 class Tracker {
  public:
   // world_from_first_cam  pose given to the first frame of each map
-  // min_lost_seconds      least time from the last pose until a new map may start, in addition to
-  //                       tracking.new_map_after; it does not hold in a map that is on trial or was
-  //                       made by an earlier run
   Tracker(const ImagingModel& imaging,
           const TrackingOptions& options,
           const PoseEstimator& estimator,
           const Rigid3& world_from_first_cam,
-          double min_lost_seconds = 0);
+          const LossPatience& loss = {});
 
   // Tracks a frame. `snapshot` is null exactly while the tracker has no map. The snapshot of a map
   // that was withdrawn ends that map: the frame has no pose, and the next frames begin another map.
@@ -153,6 +168,8 @@ class Tracker {
   // Goes on, after being lost, from a frame whose place was found in the map. `snapshot` is taken
   // around the keyframe from which the place was found.
   void FollowFrom(const Relocalized& found, const MapSnapshot& snapshot);
+  // Tells that a lost frame was looked for in the maps and not found.
+  void NotFound() { asked_ = true; }
   // A keyframe was removed from the map: poses that refer to it refer to its parent from now on.
   void Rehang(KeyFrameId gone, KeyFrameId parent, const RelativePose& gone_from_parent);
 
@@ -167,7 +184,7 @@ class Tracker {
   static void VisitState(Self& self, const Visitor& visit) {
     visit(self.state_, self.last_, self.motion_, self.scores_);
     visit(self.next_keyframe_, self.newest_keyframe_, self.frames_since_keyframe_);
-    visit(self.lost_frames_, self.use_, self.trial_keyframes_);
+    visit(self.lost_frames_, self.use_, self.trial_keyframes_, self.blind_frames_, self.asked_);
   }
 
  private:
@@ -236,6 +253,9 @@ class Tracker {
                          const Placement& place,
                          bool wants_keyframe);
   TrackingResult Fail(Frame frame, TrackingFailure failure, FrameCounts counts);
+  bool IsBlind(const Features& features) const;
+  int Patience(const Frame& frame, bool blind) const;
+  void ForgetLoss();
   TrackingResult StartMap(Frame frame);
   NewKeyFrame MakeKeyFrame(const Frame& frame, KeyFrameId parent, const RelativePose& from_parent);
   void MoveWithMap(const MapSnapshot& snapshot);
@@ -244,7 +264,7 @@ class Tracker {
   PoseSearch search_;
   bool monocular_;
   Rigid3 first_cam_from_world_;
-  double min_lost_seconds_;
+  LossPatience loss_;
   TrackerState state_ = TrackerState::kInitializing;
   std::optional<Tracked> last_;
   MotionModel motion_;
@@ -253,6 +273,8 @@ class Tracker {
   KeyFrameId newest_keyframe_;
   std::int64_t frames_since_keyframe_ = 0;
   int lost_frames_ = 0;
+  int blind_frames_ = 0;       // since the last pose, at most LossPatience::blind_frames
+  bool asked_ = false;         // a frame after the last blind one was not found
   std::optional<MapUse> use_;  // set in a map of an earlier run
   int trial_keyframes_ = 0;    // keyframes still to come until the map is trusted
 };

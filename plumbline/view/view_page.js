@@ -132,7 +132,9 @@ function eventText(event) {
       `frame ${event.frame || 0} found again by `, keyframeLink(event.keyframe || 0), ` (${by})`
     ];
   }
-  const moved = event.moved ? `, moved by ${metres(event.moved)}` : "";
+  // One camera has no baseline, and its map a unit of its own.
+  const metric = Boolean(shown.run && shown.run.camera && shown.run.camera.baseline);
+  const moved = event.moved ? `, moved by ${lengthInMap(event.moved, metric)}` : "";
   return [
     event.kind === "join" ? "maps joined: " : "loop: ", keyframeLink(event.keyframe || 0),
     " shows ", keyframeLink(event.older || 0), ` (${by}${moved})`

@@ -62,7 +62,8 @@ const UPDATE = {
           3: ["fx", "double"],
           4: ["fy", "double"],
           5: ["cx", "double"],
-          6: ["cy", "double"]
+          6: ["cy", "double"],
+          7: ["baseline", "double"]
         }
       ],
       11: ["savedMap", "number"]

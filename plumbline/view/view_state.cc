@@ -49,7 +49,9 @@ void ViewState::Take(ViewedFrame frame) {
                               Stream::kCalibration,
                               Stream::kAnnotations,
                               Stream::kPose,
-                              Stream::kTransform}) {
+                              Stream::kTransform,
+                              Stream::kRightImage,
+                              Stream::kRightCalibration}) {
     made_[IndexOf(stream)].reset();
   }
   if (shown_.record.keyframe && !shown_.image.empty()) KeepPicture();
@@ -106,9 +108,11 @@ SharedBytes ViewState::NextOfFrame(Stream stream, ViewCursor& cursor) {
   cursor.frame[index] = serial_;
   const bool needs_pose = stream == Stream::kPose || stream == Stream::kTransform;
   if (needs_pose && !shown_.is_tracked()) return nullptr;
+  const bool right = stream == Stream::kRightImage || stream == Stream::kRightCalibration;
+  if (right && shown_.right.empty()) return nullptr;
   if (stream == Stream::kImage && Jpeg().empty()) return nullptr;
   if (!made_[index]) made_[index] = Share(EncodeOfFrame(stream));
-  return made_[index];
+  return made_[index]->empty() ? nullptr : made_[index];
 }
 
 std::string ViewState::EncodeOfFrame(Stream stream) {
@@ -118,6 +122,12 @@ std::string ViewState::EncodeOfFrame(Stream stream) {
       return CompressedImageMessage(stamp_ns, "jpeg", Jpeg());
     case Stream::kCalibration:
       return CalibrationMessageOf(stamp_ns, run_.camera);
+    case Stream::kRightImage: {
+      const std::string jpeg = JpegOf(shown_.right);
+      return jpeg.empty() ? jpeg : CompressedImageMessage(stamp_ns, "jpeg", jpeg);
+    }
+    case Stream::kRightCalibration:
+      return CalibrationMessageOf(stamp_ns, run_.camera, CameraSide::kRight);
     case Stream::kAnnotations:
       return AnnotationsMessage(stamp_ns, MarksOf(shown_));
     case Stream::kPose:
@@ -162,6 +172,7 @@ ProtobufWriter ViewState::RunMessage() const {
   ProtobufWriter camera;
   camera.Varint(1, NumberOrZero(c.width)).Varint(2, NumberOrZero(c.height));
   camera.Double(3, c.fx).Double(4, c.fy).Double(5, c.cx).Double(6, c.cy);
+  camera.Double(7, c.baseline);
   ProtobufWriter message;
   message.Bytes(1, run_.name)
       .Varint(2, counts_.frames)

@@ -58,6 +58,7 @@ ViewedFrame ViewedFrameOf(const FrameRecord& record, const FrameView& view) {
   ViewedFrame frame;
   frame.record = record;
   frame.image = view.images.left;
+  if (view.images.right) frame.right = *view.images.right;
   frame.indexed = view.frame.indexed;
   frame.points = view.frame.points;
   frame.lines = view.frame.lines;

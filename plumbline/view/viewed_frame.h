@@ -15,6 +15,7 @@ namespace plumbline {
 struct ViewedFrame {
   FrameRecord record;
   GrayImage image;  // rectified left; may be missing
+  GrayImage right;  // rectified right; empty unless the camera is a pair
   std::shared_ptr<const IndexedFeatures> indexed;
   std::vector<PointId> points;  // landmark of each feature, an invalid id for none
   std::vector<LineId> lines;

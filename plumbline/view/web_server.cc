@@ -246,6 +246,12 @@ class Connection : public std::enable_shared_from_this<Connection> {
     const WebRequestHead head{View(request.target()),
                               View(request[http::field::host]),
                               View(request[http::field::origin])};
+    // What stands behind the second one would be checked by nobody.
+    for (const auto field : {http::field::host, http::field::origin}) {
+      if (request.count(field) < 2) continue;
+      return Reply(http::status::bad_request,
+                   fmt::format("expected one header {}, found several", View(to_string(field))));
+    }
     if (const auto why = WhyRefused(core_->access, head, core_->machine)) {
       return Reply(http::status::forbidden, *why);
     }

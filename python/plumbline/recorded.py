@@ -14,6 +14,9 @@ from . import _plumbline
 from ._plumbline import Atlas, Dataset, Frame, FrameResult, InputError, Map, System, Trajectory
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from ._plumbline import _TrajectoryErrors  # known to the types alone
 
 Path = str | os.PathLike[str]
@@ -37,6 +40,12 @@ class Run:
     def trajectory(self) -> Trajectory:
         """All frames with a pose, of the left camera as delivered, in the main map."""
         return self.system.trajectory()
+
+    @functools.cached_property
+    def covariances(self) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        """Stamps (N,) and covariances (N, 6, 6) of the poses as first reported, in the main map:
+        System.causal_covariances()."""
+        return self.system.causal_covariances()
 
     @functools.cached_property
     def maps(self) -> Atlas:
@@ -144,19 +153,23 @@ def _check_callable(name: str, value: object) -> None:
         raise InputError(f"{name}: expected a function, found {type(value).__name__}")
 
 
-def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None = None, camera: str | None = None,
-        format: str | None = None, topics: Sequence[str] = (), start: int = 0,
+def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None = None,
+        camera: str | None = None, format: str | None = None, topics: Sequence[str] = (),
+        ground_truth: Path | None = None, rotate: str = "auto", max_width: int | None = None,
+        start: int = 0,
         stop: int | None = None, stride: int = 1, map: Path | Atlas | None = None,
-        localize: bool = False, out: Path | None = None,
+        localize: bool = False, out: Path | None = None, seed: int | None = None,
+        mode: str | None = None,
         on_frame: Callable[[FrameResult], object] | None = None,
         on_event: Callable[[dict[str, Any]], object] | None = None, **options: Any) -> Run:
     """Tracks the camera through a recorded sequence and maps what it sees, as `plumbline run`; the
     trajectory has the same bytes.
 
     preset: the system of a paper, "rippl" or "good-line-cutting", to which options are added. path,
-    sensor, camera, format, topics: as for open(), or path is a Dataset. start, stop, stride:
-    which frames. map: a file or an Atlas to go on in; localize: only find the camera in it. out: a
-    folder for the files of the run. on_frame: called with the FrameResult of each frame, in order;
+    sensor, camera, format, topics, ground_truth, rotate, max_width: as for open(), or path is a
+    Dataset. start, stop, stride: which frames. map: a file or an Atlas to go on in; localize: only
+    find the camera in it. out: a folder for the files of the run. seed: of the random numbers; mode:
+    "inline", "lockstep" or "live" (slam.seed and slam.mode). on_frame: called with the FrameResult of each frame, in order;
     on_event: with a dictionary for each loop, join of maps and relocalization, as soon as it is
     known (System.new_events); both in this thread. options: groups as dictionaries,
     features={"line_count": 100}, or dotted keys.
@@ -167,12 +180,15 @@ def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None =
     """
     needed = None if preset is None else _plumbline._preset_sensor(preset)
     if isinstance(path, Dataset):
-        if (sensor, camera, format, tuple(topics)) != (None, None, None, ()):
-            raise InputError(
-                "sensor, camera, format, topics: expected none beside a Dataset, found some")
+        if (sensor, camera, format, tuple(topics), ground_truth, rotate, max_width) != (
+                None, None, None, (), None, "auto", None):
+            raise InputError("sensor, camera, format, topics, ground_truth, rotate, max_width: expected "
+                             "none beside a Dataset, found some")
         dataset = path
     else:
-        dataset = _plumbline.open(path, sensor=sensor or needed, camera=camera, format=format, topics=topics)
+        dataset = _plumbline.open(path, sensor=sensor or needed, camera=camera, format=format,
+                                  topics=topics, ground_truth=ground_truth, rotate=rotate,
+                                  max_width=max_width)
     _check_callable("on_frame", on_frame)
     _check_callable("on_event", on_event)
     if needed is not None and dataset.sensor != needed:
@@ -180,7 +196,7 @@ def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None =
     if localize and map is None:
         raise InputError("localize: expected map as well")
     frames = _choose_frames(dataset, start, stop, stride)
-    system = System(dataset.calibration, preset=preset, **options)
+    system = System(dataset.calibration, preset=preset, seed=seed, mode=mode, **options)
     atlas = map if map is None or isinstance(map, Atlas) else _plumbline.load_map(map)
     folder = None
     if out is not None:
@@ -192,7 +208,7 @@ def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None =
     def write() -> str | None:
         if folder is None:
             return None
-        return _plumbline._write_run(system, folder, dataset, len(frames), [])
+        return os.fspath(_plumbline._write_run(system, folder, dataset, len(frames), []))
 
     def finish() -> str | None:
         try:

@@ -36,5 +36,17 @@ TEST(Info, ChecksAllImages) {
   EXPECT_THAT(out, HasSubstr("checked       2 of 4 frames can be used\n"));
 }
 
+TEST(Info, TellsHowImagesAreTurnedAndReduced) {
+  const ScratchFolder folder;
+  folder.Write("camera.yaml", "size: [80, 60]\nintrinsics: [50, 51, 40, 30]\nrate_hz: 3\n");
+  folder.Write("0.pgm", "P5\n80 60\n255\n" + std::string(4800, 'a'));
+  const std::string out =
+      Info({folder.path().string(), "--rotate", "90", "--max-width", "30", "--check"});
+  EXPECT_THAT(out, HasSubstr("camera        30x40, fx 25.5 fy 25 cx 14.25 cy 19.75,"));
+  EXPECT_THAT(out, HasSubstr("note          images are turned by 90 degrees clockwise"));
+  EXPECT_THAT(out, HasSubstr("note          images of 60x80 pixels are reduced to 30x40"));
+  EXPECT_THAT(out, HasSubstr("checked       1 of 1 frames can be used"));
+}
+
 }  // namespace info_test
 }  // namespace plumbline

@@ -54,7 +54,8 @@ struct PausedRun {
   }
   void ExpectToRun(const std::string& more) const {
     const Outcome outcome = Run(more);
-    ASSERT_EQ(outcome.code, 0) << more << "\n" << outcome.err;
+    // 1: no frame had a pose, as in the first seconds of OfficeMono.
+    ASSERT_LE(outcome.code, 1) << more << "\n" << outcome.err;
   }
   // Pauses before frame `pause` of `frames`.
   void ExpectNoDifference(int pause, int frames) const {

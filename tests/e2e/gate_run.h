@@ -3,6 +3,7 @@
 #pragma once
 
 #include "tests/e2e/gates.h"
+#include "tests/e2e/misfit_gate.h"
 #include "tests/e2e/program.h"
 #include "tests/support/data_folder.h"
 #include <filesystem>
@@ -13,7 +14,8 @@
 
 namespace plumbline {
 
-// summary.json of a run over a gate's sequence; null (and a failure) when the run failed.
+// summary.json of a run over a gate's sequence; null (and a failure) when the run failed. What does
+// not fit in its map is a failure, too.
 inline nlohmann::json Summary(const Gate& gate,
                               const std::filesystem::path& data,
                               const std::string& mode) {
@@ -23,6 +25,7 @@ inline nlohmann::json Summary(const Gate& gate,
                                          mode + " --quiet --out " + Quoted(folder / "run"));
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   if (outcome.code != 0) return nullptr;
+  ExpectLandmarksFit(folder / "run/map.plb");
   return nlohmann::json::parse(Contents(folder / "run/summary.json"));
 }
 

@@ -1,16 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/image_file.h"
+#include "plumbline/io/image_header.h"
 #include "plumbline/io/map_io.h"
+#include "plumbline/io/trajectory_io.h"
 
 #include "tests/e2e/poster_run.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/read_colmap.h"
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
+#include <span>
 #include <string>
 #include <thread>
 #include <tuple>
@@ -146,7 +152,7 @@ TEST(MapExport, ImagesComeWithTheModel) {
   const auto json = nlohmann::json::parse(Contents(folder / "nerfstudio/transforms.json"));
   ASSERT_EQ(json["frames"].size(), model.images.size());
   std::set<int> greys;
-  for (const ColmapModel::Point& point : model.points) greys.insert(point.grey);
+  for (const ColmapModel::Point& point : model.points) greys.insert(point.color.r);
   EXPECT_GT(greys.size(), 20U);
   for (std::size_t i = 0; i < model.images.size(); ++i) {
     const std::string name = "images/" + model.images[i].name;
@@ -155,6 +161,105 @@ TEST(MapExport, ImagesComeWithTheModel) {
     EXPECT_EQ(Contents(folder / "colmap" / name), Contents(folder / "nerfstudio" / name));
   }
   EXPECT_EQ(FilesOf(folder / "colmap/images").size(), model.images.size());
+}
+
+// Gives a poster sequence left images in colour.
+void PaintLeftImages(const fs::path& sequence) {
+  for (int i = 0; i < 12; ++i) {
+    const fs::path file = sequence / fmt::format("mav0/cam0/data/{}.png", i);
+    ColorImage image = ToColor(MovingPoster().Frame(i).left);
+    for (int y = 0; y < image.height(); ++y) {
+      std::fill(image.blue.row(y), image.blue.row(y) + image.width(), std::uint8_t{40});
+    }
+    WriteColorPng(file, image);
+  }
+}
+
+// Where a point of a model lies in an image.
+Eigen::Vector2d PlaceIn(const ColmapModel& model,
+                        const ColmapModel::Image& image,
+                        const Eigen::Vector3d& position) {
+  const Eigen::Vector3d p = image.cam_from_world * position;
+  const ColmapModel::Camera& c = model.camera;
+  return {c.fx * p.x() / p.z() + c.cx, c.fy * p.y() / p.z() + c.cy};
+}
+
+// All frames of a run, in the colours of the data: what a point looks like where it is projected
+// into the images between keyframes is what the model says of it.
+TEST(MapExport, HasAllFramesInColour) {
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 24);
+  PaintLeftImages(sequence);
+  const fs::path map = folder / "out/map.plb";
+  const std::string images = " --images " + Quoted(sequence);
+  const auto export_to = [&](const std::string& form, const std::string& name) {
+    const Outcome outcome = RunProgram(
+        folder,
+        "map export " + Quoted(map) + images + " --to " + form + " --out " + Quoted(folder / name));
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.out;
+  };
+  const Outcome run =
+      RunProgram(folder, "run " + Quoted(sequence) + " --quiet --out " + Quoted(folder / "out"));
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(export_to("colmap --frames all", "colmap"), HasSubstr(": 24 images, "));
+  export_to("nerfstudio --frames all", "nerfstudio");
+  export_to("nerfstudio --frames every:5", "every");
+  export_to("ply", "map.ply");
+  const std::size_t keyframes = LoadMap(map).map.keyframes().size();
+  ASSERT_LT(keyframes, 20U);
+  const ColmapModel model = ReadColmapBinary(folder / "colmap/sparse/0");
+  ASSERT_EQ(model.images.size(), 24U);
+  EXPECT_EQ(FilesOf(folder / "colmap/images").size(), 24U);
+  const auto json = nlohmann::json::parse(Contents(folder / "nerfstudio/transforms.json"));
+  EXPECT_EQ(json["frames"].size(), 24U);
+  EXPECT_EQ(FilesOf(folder / "nerfstudio/images").size(), 24U);
+  const auto every = nlohmann::json::parse(Contents(folder / "every/transforms.json"));
+  EXPECT_GE(every["frames"].size(), keyframes);
+  EXPECT_LE(every["frames"].size(), keyframes + 5);
+  std::size_t inside = 0, alike = 0;
+  for (std::size_t i = keyframes; i < model.images.size(); ++i) {
+    EXPECT_TRUE(model.images[i].keypoints.empty());
+    const auto image = ReadColorImage(folder / "colmap/images" / model.images[i].name);
+    ASSERT_TRUE(image);
+    EXPECT_EQ(image->at(7, 9).b, 40);
+    for (const ColmapModel::Point& point : model.points) {
+      EXPECT_EQ(point.color.b, 40);
+      EXPECT_EQ(point.color.r, point.color.g);
+      const Eigen::Vector2d px = PlaceIn(model, model.images[i], point.position);
+      if (px.minCoeff() < 0 || px.x() >= image->width() || px.y() >= image->height()) continue;
+      const Color seen = image->at(static_cast<int>(px.x()), static_cast<int>(px.y()));
+      ++inside;
+      alike += std::abs(int{seen.r} - int{point.color.r}) < 40 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(inside, 1000U);
+  // Points are corners: a pixel beside, some have the level of the other side.
+  EXPECT_GT(static_cast<double>(alike), 0.6 * static_cast<double>(inside));
+  EXPECT_THAT(Contents(folder / "map.ply"), HasSubstr(" 40\n"));
+  EXPECT_EQ(Contents(folder / "map.ply").find(" 128 128 128\n"), std::string::npos);
+}
+
+// Poses of frames are those of the run that made the map, or there is no export.
+TEST(MapExport, NeedsTheTrajectoryOfTheRunForAllFrames) {
+  const ScratchFolder folder;
+  fs::copy_file(Posters().map, folder / "map.plb");
+  const std::string command = "map export " + Quoted(folder / "map.plb") +
+                              " --to colmap --images " + Quoted(Posters().sequence) +
+                              " --frames all --out " + Quoted(folder / "x");
+  ExpectRefusal(
+      RunProgram(folder, command),
+      "--frames: expected the poses of all frames in " + (folder / "trajectory.txt").string());
+  const std::string given = " --trajectory " + Quoted(Posters().out / "trajectory.txt");
+  EXPECT_EQ(RunProgram(folder, command + given).code, 0);
+  EXPECT_EQ(FilesOf(folder / "x/images").size(), 24U);
+  fs::remove_all(folder / "x");
+  WriteTum(folder / "trajectory.txt",
+           TimeReversed(ReadTrajectory(Posters().out / "trajectory.txt").poses, 3'150'000'000));
+  ExpectRefusal(
+      RunProgram(folder, command),
+      "trajectory.txt: expected the poses of the run that made the map, found another one");
+  EXPECT_FALSE(fs::exists(folder / "x"));
 }
 
 TEST(MapExport, WritesTheSameBytesAgain) {
@@ -262,6 +367,47 @@ TEST(MapExport, RefusesImagesThatAreNotThoseOfTheKeyframes) {
   ExpectRefusal(export_with(continued, b), message);
   EXPECT_FALSE(fs::exists(first / "data"));
   EXPECT_EQ(export_with(forwards, a).code, 0);
+}
+
+// The camera of a run on smaller or turned images is that of the images that are exported.
+TEST(MapExport, GivesImagesAsTheRunUsedThem) {
+  const ScratchFolder folder;
+  const std::string sequence = Quoted(WritePosterSequence(folder, 24));
+  const auto run = [&](const std::string& arguments) {
+    fs::remove_all(folder / "run");
+    return RunProgram(folder, "run " + sequence + arguments + " --out " + Quoted(folder / "run"));
+  };
+  const auto export_with = [&](const std::string& arguments) {
+    fs::remove_all(folder / "data");
+    return RunProgram(folder,
+                      "map export " + Quoted(folder / "run/map.plb") +
+                          " --to nerfstudio --images " + sequence + arguments + " --out " +
+                          Quoted(folder / "data"));
+  };
+  const auto expect_size = [&](int width, int height) {
+    const auto transforms = nlohmann::json::parse(Contents(folder / "data/transforms.json"));
+    EXPECT_EQ(transforms["w"], width);
+    EXPECT_EQ(transforms["h"], height);
+    const std::string name = transforms["frames"][0]["file_path"];
+    const std::string png = Contents(folder / "data" / name);
+    EXPECT_EQ(
+        SizeInHeader(std::span(reinterpret_cast<const std::uint8_t*>(png.data()), png.size())),
+        (ImageSize{width, height}));
+  };
+  const Outcome smaller = run(" --max-width 200");
+  ASSERT_EQ(smaller.code, 0) << smaller.err;
+  EXPECT_THAT(smaller.err, HasSubstr("images of 400x300 pixels are reduced to 200x150"));
+  ASSERT_EQ(export_with("").code, 0);
+  expect_size(200, 150);
+  const Outcome turned = run(" --sensor mono --rotate 90");
+  ASSERT_EQ(turned.code, 0) << turned.err;
+  EXPECT_THAT(turned.err, HasSubstr("images are turned by 90 degrees clockwise"));
+  ASSERT_EQ(export_with(" --rotate 90").code, 0);
+  expect_size(300, 400);
+  ExpectRefusal(export_with(""), "expected the camera that the map was made with");
+  ExpectRefusal(run(" --rotate 90"), "sequence: expected one camera whose images can be turned");
+  ExpectRefusal(run(" --rotate 45"), "--rotate: expected auto, none, 90, 180 or 270, found 45");
+  ExpectRefusal(run(" --max-width 3"), "--max-width: expected a whole number from 16 to 100000");
 }
 
 // An image that cannot be read ends an export without a trace.

@@ -6,6 +6,8 @@
 #include "tests/support/bag_writer.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/mcap_writer.h"
+#include "tests/support/rosbag2_writer.h"
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -46,28 +48,35 @@ TEST(RunRecording, GivesTheBytesOfTheFolder) {
   const ScratchFolder folder;
   BagWriter bag("lz4");
   McapWriter mcap("zstd");
-  int damaged = 0;
+  // Two files, the second one packed.
+  auto split = std::make_unique<Rosbag2Writer>(folder / "MH_01_db3/MH_01_0.db3");
+  int damaged = 0, images = 0;
   ForEachEurocImage(*data, kFrames, [&](const EurocImage& image) {
     damaged += image.readable ? 0 : 1;
     const Sent ros1 = AsRos(image, Dialect::kRos1), ros2 = AsRos(image, Dialect::kCdr);
     bag.Add(ros1.topic, ros1.type, image.stamp_ns + 1000, ros1.message);
     mcap.Add(ros2.topic, ros2.type, "cdr", image.stamp_ns + 1000, ros2.message);
+    if (++images == 21) split = std::make_unique<Rosbag2Writer>(folder / "MH_01_db3/MH_01_1.db3");
+    split->Add(ros2.topic, ros2.type, image.stamp_ns + 1000, ros2.message);
   });
   EXPECT_EQ(damaged, 1);
   folder.Write("MH_01.bag", bag.Finish());
   folder.Write("MH_01.mcap", mcap.Finish());
+  split.reset();
+  PackFile(folder / "MH_01_db3/MH_01_1.db3");
+  folder.Write("MH_01_db3/metadata.yaml", Rosbag2Metadata({"MH_01_0.db3", "MH_01_1.db3.zstd"}));
   const std::string camera = " --camera euroc --out ";
   const Outcome whole =
       RunProgram(folder,
                  "run " + Quoted(*data) + " --from " + std::to_string(kFrames.first) + " --to " +
                      std::to_string(kFrames.second) + camera + Quoted(folder / "folder"));
   ASSERT_EQ(whole.code, 0) << whole.err;
-  for (const std::string name : {"bag", "mcap"}) {
+  for (const std::string name : {"MH_01.bag", "MH_01.mcap", "MH_01_db3"}) {
     const Outcome run = RunProgram(
-        folder, "run " + Quoted(folder / ("MH_01." + name)) + camera + Quoted(folder / name));
+        folder, "run " + Quoted(folder / name) + camera + Quoted(folder / (name + "_run")));
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_THAT(run.err, HasSubstr("_raw: the file is damaged or cut short (wrong checksum)"));
-    ExpectSameResults(folder / "folder", folder / name);
+    ExpectSameResults(folder / "folder", folder / (name + "_run"));
   }
   const Outcome info = RunProgram(folder, "info " + Quoted(folder / "MH_01.bag") + " --check");
   EXPECT_THAT(info.out, HasSubstr("19 of 20 frames can be used"));

@@ -126,7 +126,7 @@ TEST(View, ARecordingIsInputForTheNextRun) {
   ASSERT_EQ(first.code, 0) << first.err;
   ExpectSameResults(Posters().out, folder / "first");
   const Outcome second =
-      RunProgram(folder, "run " + recording + " --sensor mono --out " + Quoted(folder / "second"));
+      RunProgram(folder, "run " + recording + " --out " + Quoted(folder / "second"));
   ASSERT_EQ(second.code, 0) << second.err;
   EXPECT_THAT(Contents(folder / "second" / "frames.csv"), HasSubstr("\n23,"));
   // The file that is read is not to be replaced.

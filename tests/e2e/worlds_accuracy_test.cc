@@ -10,6 +10,7 @@
 #include "worlds/world.h"
 #include "worlds/world_catalog.h"
 
+#include "tests/e2e/misfit_gate.h"
 #include "tests/e2e/program.h"
 #include <filesystem>
 #include <string>
@@ -52,6 +53,7 @@ void Check(const WorldGate& gate) {
   EXPECT_EQ(summary["maps"], 1);
   EXPECT_LE(summary["accuracy"]["ate"]["rmse"], gate.max_ate_m);
   EXPECT_LE(summary["accuracy_causal"]["ate"]["rmse"], gate.max_causal_m);
+  ExpectLandmarksFit(folder / "run/map.plb");
   if (gate.min_found_m == 0) return;
   const auto lines = nlohmann::json::parse(Contents(folder / "errors.json"))["line_map"];
   const auto& at_5_cm = lines["tolerances"][2];

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/eval/trajectory_error.h"
 
+#include "plumbline/base/error.h"
 #include "plumbline/base/random.h"
 #include "plumbline/eval/figure.h"
 #include "plumbline/eval/trajectory_figure.h"
@@ -54,7 +55,12 @@ TEST(TrajectoryError, StatisticsByHand) {
   EXPECT_DOUBLE_EQ(odd->mean, 7.0 / 3);
   EXPECT_DOUBLE_EQ(odd->median, 3);
   EXPECT_DOUBLE_EQ(odd->max, 4);
+  // Population: (2/3)^2 + (7/3)^2 + (5/3)^2 over three. Percentiles between 3 and 4.
+  EXPECT_DOUBLE_EQ(odd->deviation, std::sqrt(78.0 / 27));
+  EXPECT_DOUBLE_EQ(odd->p75, 3.5);
+  EXPECT_DOUBLE_EQ(odd->p95, 3.9);
   EXPECT_DOUBLE_EQ(StatisticsOf({4, 1, 2, 9})->median, 3);
+  EXPECT_DOUBLE_EQ(StatisticsOf({7})->p95, 7);
   EXPECT_FALSE(StatisticsOf({}));
 }
 
@@ -403,6 +409,68 @@ TEST(TrajectoryFigure, ShowsTheTwoAxesOfMotionInRange) {
   EXPECT_THAT(svg, HasSubstr(">z [m]<"));
   EXPECT_THAT(svg, HasSubstr("RMSE"));
   EXPECT_EQ(svg, ToSvg(TrajectoryFigure(*error)));
+}
+
+TEST(TrajectoryError, AKnownAlignmentIsAppliedAsItIs) {
+  Rng rng(8);
+  const Trajectory reference = RandomTrajectory(rng, 20, 0.1);
+  TrajectoryErrorOptions options;
+  options.alignment = TrajectoryAlignment::kSim3;
+  options.known_alignment = Similarity3{1, Eigen::Quaterniond::Identity(), {0.3, 0, 0.4}};
+  const auto error = CompareTrajectories(reference, reference, options);
+  ASSERT_TRUE(error);
+  EXPECT_NEAR(error->ate.rmse, 0.5, 1e-12);
+  EXPECT_EQ(error->reference_from_estimate.translation, Vector3d(0.3, 0, 0.4));
+}
+
+// One rule: what is off by 1 % at most is normalized, anything else is refused.
+TEST(TrajectoryError, RotationsAreOfNormOne) {
+  Rng rng(9);
+  const Trajectory reference = RandomTrajectory(rng, 20, 0.1);
+  const auto scaled = [&](double norm) {
+    Trajectory poses = reference;
+    for (StampedPose& pose : poses) pose.world_from_camera.rotation.coeffs() *= norm;
+    return poses;
+  };
+  for (const auto& error : {CompareTrajectories(reference, scaled(0.992), {}),
+                            CompareTrajectories(scaled(1.009), reference, {})}) {
+    ASSERT_TRUE(error);
+    EXPECT_LT(error->ate.rmse, 1e-9);
+    EXPECT_LT(error->poses[3].rotation_error, 1e-7);
+  }
+  EXPECT_THROW(CompareTrajectories(reference, scaled(2), {}), InputError);
+  EXPECT_THROW(CompareTrajectories(scaled(0.9), reference, {}), InputError);
+  EXPECT_THROW(OfCamera(scaled(2), {}), InputError);
+  Rigid3 mounting;
+  mounting.rotation.coeffs() *= 2;
+  EXPECT_THROW(OfCamera(reference, mounting), InputError);
+  EXPECT_THROW(MirroredY(scaled(2)), InputError);
+  EXPECT_NEAR(MirroredY(scaled(1.005))[0].world_from_camera.rotation.norm(), 1, 1e-12);
+}
+
+TEST(RollPitchYaw, AreTurnsAboutTheFixedAxesOneAfterTheOther) {
+  const Vector3d angles(30, -50, 170);
+  const Vector3d radians = std::numbers::pi / 180 * angles;
+  const Eigen::Quaterniond rotation =
+      ExpSo3({0, 0, radians.z()}) * ExpSo3({0, radians.y(), 0}) * ExpSo3({radians.x(), 0, 0});
+  EXPECT_LT((RollPitchYawDeg(rotation) - angles).norm(), 1e-10);
+  EXPECT_TRUE(RollPitchYawDeg(ExpSo3({0, std::numbers::pi / 2, 0})).allFinite());
+}
+
+// Yaw goes on from 180 degrees at -180: no line crosses the panel.
+TEST(TrajectoryFigure, BreaksTheLineOfAnAngleThatGoesRound) {
+  Trajectory reference;
+  for (int i = 0; i < 60; ++i) {
+    reference.push_back(At(0.1 * i, {0.2 * i, std::sin(0.1 * i), 0}, {0, 0, 0.2 * i}));
+  }
+  const auto error = CompareTrajectories(reference, reference, {});
+  ASSERT_TRUE(error);
+  for (const Figure::Polyline& line : TrajectoryFigure(*error).lines) {
+    if (line.points.size() <= 5) continue;  // grid and frames
+    for (std::size_t i = 1; i < line.points.size(); ++i) {
+      EXPECT_LT((line.points[i] - line.points[i - 1]).norm(), 60);
+    }
+  }
 }
 
 TEST(TrajectoryFigure, StandsASinglePose) {

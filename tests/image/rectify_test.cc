@@ -63,6 +63,18 @@ Calibration KittiCalibration() {
   return calibration;
 }
 
+TEST(Rectifier, TheTurnOfThePairIsARotation) {
+  Calibration off = EurocCalibration();
+  off.right_from_left.rotation.coeffs() *= 0.994;
+  const Rectifier exact(EurocCalibration()), normalized(off);
+  EXPECT_NEAR(normalized.camera().baseline, exact.camera().baseline, 1e-12);
+  EXPECT_LT(
+      AngularDistance(normalized.rectified_left_from_left(), exact.rectified_left_from_left()),
+      1e-7);
+  off.right_from_left.rotation.coeffs() *= 2;
+  EXPECT_THROW(Rectifier{off}, InputError);
+}
+
 TEST(Rectifier, EurocPairHasEqualRowsAndTheDisparityOfTheDepth) {
   const Calibration calibration = EurocCalibration();
   const Rectifier rectifier(calibration);

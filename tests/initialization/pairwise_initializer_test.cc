@@ -71,7 +71,7 @@ TEST(FactorizePairwise, AnglesDecideWhatIsInterpolated) {
   const auto poses = OfUnitLength(scene.truth.cam_from_reference);
   const auto all = FactorizePairwise(scene.tracks, poses, MissingPlaces::kInterpolate, {});
   const auto some =
-      FactorizePairwise(scene.tracks, poses, MissingPlaces::kInterpolate, {.min_line_angle = 0.3});
+      FactorizePairwise(scene.tracks, poses, MissingPlaces::kInterpolate, {.min_line_angle = 1.2});
   ASSERT_TRUE(all && some);
   EXPECT_LT(some->interpolated, all->interpolated);
 }

@@ -83,6 +83,41 @@ TEST(WriteFileAtomically, ReportsAFullDisk) {
   EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
 }
 
+TEST(WriteFilesAtomically, WritesAllOfThem) {
+  const ScratchFolder folder;
+  folder.Write("b.txt", "before");
+  WriteFilesAtomically({{folder / "a.txt", "one"}, {folder / "b.txt", "two"}});
+  EXPECT_EQ(Contents(folder / "a.txt"), "one");
+  EXPECT_EQ(Contents(folder / "b.txt"), "two");
+  EXPECT_EQ(FileCount(folder.path()), 2);
+}
+
+TEST(WriteFilesAtomically, WritesNoneWhereOneCannotBeWritten) {
+  const ScratchFolder folder;
+  folder.Write("a.txt", "before");
+  EXPECT_THAT(MessageOf([&] {
+                WriteFilesAtomically({{folder / "a.txt", "one"}, {folder / "none/b.txt", "two"}});
+              }),
+              HasSubstr("none/b.txt: No such file or directory"));
+  EXPECT_EQ(Contents(folder / "a.txt"), "before");
+  EXPECT_EQ(FileCount(folder.path()), 1);
+}
+
+// The second of two of one name finds its contents gone when it is to take that name.
+TEST(WriteFilesAtomically, PutsBackWhatItReplacedWhereANameCannotBeTaken) {
+  const ScratchFolder folder;
+  folder.Write("old.txt", "before");
+  for (const char* name : {"old.txt", "new.txt"}) {
+    const std::filesystem::path file = folder / name;
+    EXPECT_THAT(MessageOf([&] {
+                  WriteFilesAtomically({{folder / "old.txt.other", "x"}, {file, "1"}, {file, "2"}});
+                }),
+                HasSubstr("cannot write"));
+    EXPECT_EQ(Contents(folder / "old.txt"), "before");
+    EXPECT_EQ(FileCount(folder.path()), 1);
+  }
+}
+
 TEST(AtomicFolder, AppearsWithAllItsFilesOrNotAtAll) {
   const ScratchFolder folder;
   for (const bool commit : {false, true}) {

@@ -96,8 +96,8 @@ TEST(LoadCheckpoint, RefusesAFileWithAnyByteChanged) {
 TEST(LoadCheckpoint, SaysWhatIsWrong) {
   const SavedFile file;
   std::string newer = file.bytes;
-  newer[8] = 6;
-  file.ExpectRefused(newer, "expected a checkpoint of version 5, found version 6");
+  newer[8] = 7;
+  file.ExpectRefused(newer, "expected a checkpoint of version 6, found version 7");
   SaveAtlas(file.folder / "m.plb", MakeSavedAtlas().atlas, MakeSavedAtlas().context);
   file.ExpectRefused(Contents(file.folder / "m.plb"),
                      "expected a Plumbline checkpoint, found another file");

@@ -54,7 +54,7 @@ void ExpectEqual(const ColmapModel& a, const ColmapModel& b) {
   for (std::size_t i = 0; i < a.points.size(); ++i) {
     EXPECT_EQ(a.points[i].id, b.points[i].id);
     EXPECT_EQ(a.points[i].position, b.points[i].position);
-    EXPECT_EQ(a.points[i].grey, b.points[i].grey);
+    EXPECT_TRUE(a.points[i].color == b.points[i].color);
     EXPECT_EQ(a.points[i].error, b.points[i].error);
     EXPECT_EQ(a.points[i].track, b.points[i].track);
   }
@@ -64,7 +64,7 @@ TEST(ColmapModel, TextAndBinaryGiveItBackToTheLastBit) {
   const ScratchFolder folder;
   const SavedMap saved = NoisyMap();
   const ColmapModel model =
-      MakeColmapModel(saved, KeyFrameImageNames(saved.map), {{PointId{5}, 17}});
+      MakeColmapModel(saved, KeyFrameImageNames(saved.map), {{PointId{5}, {17, 18, 219}}});
   WriteColmapText(folder.path(), model);
   WriteColmapBinary(folder.path(), model);
   ExpectEqual(ReadColmapText(folder.path()), model);
@@ -102,7 +102,7 @@ TEST(ColmapModel, KeypointsAndTracksNameEachOther) {
     }
   }
   for (const ColmapModel::Point& point : model.points) {
-    EXPECT_EQ(point.grey, 128);
+    EXPECT_TRUE((point.color == Color{128, 128, 128}));
     for (const ColmapModel::View& view : point.track) {
       EXPECT_EQ(images.at(view.image)->keypoints.at(view.keypoint).point, point.id);
       ++in_tracks;
@@ -113,6 +113,27 @@ TEST(ColmapModel, KeypointsAndTracksNameEachOther) {
   EXPECT_FALSE(images.contains(ColmapImageId(KeyFrameId{1})));
 }
 
+TEST(ColmapModel, HasFramesBehindTheKeyframes) {
+  const SavedMap saved = NoisyMap();
+  const PosedImage frame{7, "7.png", {{0, 1, 0, 0}, {1, 2, 3}}};
+  const std::vector<PosedImage> others = {frame, {8, "8.png", {}}};
+  const ColmapModel keyframes = MakeColmapModel(saved, KeyFrameImageNames(saved.map));
+  const ColmapModel model = MakeColmapModel(saved, KeyFrameImageNames(saved.map), {}, others);
+  ASSERT_EQ(model.images.size(), keyframes.images.size() + 2);
+  const ColmapModel::Image& first = model.images[keyframes.images.size()];
+  EXPECT_EQ(first.id, keyframes.images.back().id + 1);
+  EXPECT_EQ(model.images.back().id, first.id + 1);
+  EXPECT_EQ(first.name, "7.png");
+  EXPECT_EQ(first.cam_from_world.translation, frame.cam_from_world.translation);
+  EXPECT_TRUE(first.keypoints.empty());
+  EXPECT_EQ(model.points.size(), keyframes.points.size());
+  const ScratchFolder folder;
+  WriteColmapText(folder.path(), model);
+  WriteColmapBinary(folder.path(), model);
+  ExpectEqual(ReadColmapText(folder.path()), model);
+  ExpectEqual(ReadColmapBinary(folder.path()), model);
+}
+
 // Each image has two lines, one without features as well.
 TEST(WriteColmapText, WritesTheForm) {
   const ScratchFolder folder;
@@ -120,7 +141,7 @@ TEST(WriteColmapText, WritesTheForm) {
   model.camera = {752, 480, 435, 420.25, 367.5, 252.5};
   model.images.push_back({1, {{1, 0, 0, 0}, {0, -0.5, 2}}, "a.png", {{{1.5, 2.5}, 9}, {{3, 4}}}});
   model.images.push_back({3, {{0, 1, 0, 0}, {0, 0, 0}}, "b.png", {}});
-  model.points.push_back({9, {1, 2, 0.1}, 77, 0.25, {{1, 0}}});
+  model.points.push_back({9, {1, 2, 0.1}, {77, 0, 255}, 0.25, {{1, 0}}});
   WriteColmapText(folder.path(), model);
   const auto rows = [&](const std::string& name) {
     std::string text, line;
@@ -133,7 +154,7 @@ TEST(WriteColmapText, WritesTheForm) {
   EXPECT_EQ(rows("cameras.txt"), "1 PINHOLE 752 480 435 420.25 367.5 252.5|");
   EXPECT_EQ(rows("images.txt"),
             "1 1 0 0 0 0 -0.5 2 1 a.png|1.5 2.5 9 3 4 -1|3 0 1 0 0 0 0 0 1 b.png||");
-  EXPECT_EQ(rows("points3D.txt"), "9 1 2 0.1 77 77 77 0.25 1 0|");
+  EXPECT_EQ(rows("points3D.txt"), "9 1 2 0.1 77 0 255 0.25 1 0|");
   WriteColmapBinary(folder.path(), model);
   ExpectEqual(ReadColmapText(folder.path()), model);
   ExpectEqual(ReadColmapBinary(folder.path()), model);

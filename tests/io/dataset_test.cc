@@ -9,6 +9,8 @@
 #include "tests/support/data_folder.h"
 #include "tests/support/euroc_calibration.h"
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -18,6 +20,7 @@ namespace plumbline {
 namespace {
 
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -115,9 +118,10 @@ TEST(OpenDataset, GroundTruthOfABodyNeedsItsPlace) {
                "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrectified: true\nbaseline: 0.1\n");
   const auto dataset = OpenDataset(folder.path());
   EXPECT_FALSE(dataset->info().ground_truth);
-  EXPECT_THAT(dataset->info().notes,
-              ElementsAre("the ground truth is not used: it is of a body, and the camera file has "
-                          "no body_from_left"));
+  EXPECT_THAT(
+      dataset->info().ground_truth_fault.value_or(""),
+      EndsWith("state_groundtruth_estimate0/data.csv: expected body_from_left in the camera "
+               "file, since these are poses of a body, found none"));
 }
 
 TEST(OpenDataset, RefusesImagesOfAnotherSize) {
@@ -181,6 +185,70 @@ TEST(OpenDataset, JoinsTumDepthNearestInTime) {
   const auto mono = OpenDataset(folder.path(), {.sensor = SensorKind::kMono});
   EXPECT_EQ(mono->size(), 4U);
   EXPECT_FALSE(mono->calibration().depth_factor);
+}
+
+// The left list has 200 twice, the right one has 300 before 200: pairs stay pairs.
+TEST(OpenDataset, EurocListsAreSortedAndHaveEachTimeOnce) {
+  const ScratchFolder folder;
+  WriteEuroc(folder);
+  folder.Write("mav0/cam0/data.csv", "#h\n100,1.png\n200,2.png\n200,3.png\n300,3.png\n");
+  folder.Write("mav0/cam1/data.csv", "#h\n100,1.png\n300,3.png\n200,2.png\n");
+  const auto dataset = OpenDataset(folder.path());
+  EXPECT_THAT(dataset->info().stamps_ns, ElementsAre(100, 200, 300));
+  EXPECT_THAT(dataset->info().notes,
+              ElementsAre(EndsWith("cam0/data.csv:4: 1 row repeats a time stamp and is left out"),
+                          EndsWith("cam1/data.csv:4: 1 row goes back in time and is sorted in")));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto frame = dataset->Read(i);
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->left.at(0, 0), i + 1);
+    EXPECT_EQ(frame->right->at(0, 0), i + 11);
+  }
+}
+
+TEST(OpenDataset, TumListsAreSortedAndHaveEachTimeOnce) {
+  const ScratchFolder folder;
+  WriteTumFolder(folder);
+  folder.Write("rgb.txt", "1.2 rgb/4.png\n1.0 rgb/1.png\n1.1 rgb/3.png\n1.1 rgb/2.png\n");
+  folder.Write("depth.txt", "1.201 depth/3.png\n1.001 depth/1.png\n1.101 depth/2.png\n");
+  const auto dataset = OpenDataset(folder.path());
+  EXPECT_EQ(dataset->sensor(), SensorKind::kRgbd);
+  EXPECT_THAT(dataset->info().stamps_ns, ElementsAre(1'000'000'000, 1'100'000'000, 1'200'000'000));
+  EXPECT_THAT(
+      dataset->info().notes,
+      ElementsAre(
+          EndsWith("rgb.txt:4: 1 row repeats a time stamp and is left out"),
+          EndsWith("rgb.txt:2: 2 rows go back in time and are sorted in, this one first"),
+          EndsWith("depth.txt:2: 2 rows go back in time and are sorted in, this one first")));
+  for (const auto& [i, value, metres] :
+       {std::tuple(0U, 1, 1.0F), std::tuple(1U, 3, 2.0F), std::tuple(2U, 4, 3.0F)}) {
+    const auto frame = dataset->Read(i);
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->left.at(0, 0), value);
+    EXPECT_EQ(frame->depth->at(0, 0), metres);
+  }
+}
+
+// Images and poses of KITTI belong to rows of times.txt.
+TEST(OpenDataset, KittiImagesAndPosesFollowTheirTimes) {
+  const ScratchFolder folder;
+  WriteKitti(folder);
+  folder.Write("times.txt", "0.2\n0.1\n0.2\n");
+  const auto dataset = OpenDataset(folder.path());
+  EXPECT_THAT(dataset->info().stamps_ns, ElementsAre(100'000'000, 200'000'000));
+  EXPECT_THAT(dataset->info().notes,
+              ElementsAre(EndsWith("times.txt:3: 1 row repeats a time stamp and is left out"),
+                          EndsWith("times.txt:2: 1 row goes back in time and is sorted in")));
+  const Trajectory& truth = dataset->info().ground_truth->poses;
+  ASSERT_EQ(truth.size(), 2U);
+  for (const auto& [i, row] : {std::pair(0U, 1), std::pair(1U, 0)}) {
+    const auto frame = dataset->Read(i);
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->left.at(0, 0), row + 1);
+    EXPECT_EQ(frame->right->at(0, 0), row + 11);
+    EXPECT_EQ(truth[i].stamp_ns, dataset->stamp_ns(i));
+    EXPECT_EQ(truth[i].world_from_camera.translation.z(), row);
+  }
 }
 
 TEST(OpenDataset, FindsTheCameraOfATumFolderByItsName) {

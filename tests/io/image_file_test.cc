@@ -92,6 +92,38 @@ TEST(ReadGrayImage, TurnsColourToGreyAlikeForAllTypes) {
   }
 }
 
+TEST(ReadColorImage, KeepsColoursOfAllTypes) {
+  const ScratchFolder folder;
+  const cv::Mat bgr(48, 64, CV_8UC3, cv::Scalar(16, 80, 160));
+  for (const std::string extension : {".png", ".webp", ".ppm", ".bmp", ".tiff", ".jpg"}) {
+    const auto path = folder.Write("a" + extension, Encoded(bgr, extension));
+    const auto image = ReadColorImage(path);
+    ASSERT_TRUE(image) << extension << ": " << image.error().why;
+    ASSERT_EQ(image->width(), 64);
+    ASSERT_EQ(image->height(), 48);
+    const Color color = image->at(63, 47);
+    const int tolerance = extension == ".jpg" ? 3 : 0;
+    EXPECT_NEAR(color.r, 160, tolerance) << extension;
+    EXPECT_NEAR(color.g, 80, tolerance) << extension;
+    EXPECT_NEAR(color.b, 16, tolerance) << extension;
+    EXPECT_EQ(ToGray(*image).at(63, 47), ReadGrayImage(path)->at(63, 47)) << extension;
+  }
+}
+
+TEST(ReadColorImage, GivesGreyImagesAsReadGrayImageDoes) {
+  const ScratchFolder folder;
+  const cv::Mat sixteen(48, 64, CV_16UC1, cv::Scalar(0x1234));
+  for (const cv::Mat& mat : {Pattern(), sixteen}) {
+    const auto path = folder.Write("a.png", Encoded(mat, ".png"));
+    const auto image = ReadColorImage(path);
+    ASSERT_TRUE(image);
+    EXPECT_TRUE(IsGray(*image));
+    EXPECT_EQ(image->green.at(5, 6), ReadGrayImage(path)->at(5, 6));
+  }
+  EXPECT_EQ(ReadColorImage(folder / "none.png").error().why, "no such file");
+  EXPECT_TRUE(ReadColorImage(folder / "a.png", ImageSize{3, 4}).error().other_size.has_value());
+}
+
 TEST(ReadGrayImage, FilesCutShortFailWithoutNoise) {
   const ScratchFolder folder;
   testing::internal::CaptureStderr();

@@ -93,5 +93,49 @@ TEST(SizeInHeader, TakesHeadersThatEndEarly) {
   }
 }
 
+// EXIF data that ask for an orientation, with the highest byte of a number first or last.
+std::string Exif(int orientation, bool big) {
+  const std::string number(1, static_cast<char>(orientation));
+  if (big) {
+    return std::string("MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0", 19) + number +
+           std::string(6, '\0');
+  }
+  return std::string("II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0", 18) + number +
+         std::string(7, '\0');
+}
+
+int OrientationIn(const std::string& file) { return ExifOrientation(Text(file)); }
+
+TEST(ExifOrientation, IsFoundInFilesOfEachType) {
+  const std::string jpeg_start = "\xFF\xD8\xFF";
+  for (const bool big : {false, true}) {
+    for (const int number : {1, 3, 6, 8}) {
+      const std::string exif = Exif(number, big);
+      const auto length = static_cast<char>(exif.size());
+      const std::string segment = std::string("\xE1\0", 2) + static_cast<char>(length + 8) +
+                                  std::string("Exif\0\0", 6) + exif;
+      const std::string comment("\xFE\0\4ab\xFF", 6);
+      EXPECT_EQ(OrientationIn(jpeg_start + segment), number);
+      EXPECT_EQ(OrientationIn(jpeg_start + comment + segment), number);
+      const std::string png = std::string("\x89PNG\r\n\x1a\n\0\0\0\1tEXtaCRCC\0\0\0", 24) + length;
+      EXPECT_EQ(OrientationIn(png + "eXIf" + exif + "CRCC"), number);
+      const std::string webp("RIFF\0\0\0\0WEBPVP8X\4\0\0\0abc\0EXIF", 28);
+      const std::string size = length + std::string(3, '\0');
+      EXPECT_EQ(OrientationIn(webp + size + exif), number);
+      EXPECT_EQ(OrientationIn(webp + size + std::string("Exif\0\0", 6) + exif), number);
+      EXPECT_EQ(OrientationIn(exif), number);  // a TIFF file
+    }
+    for (const int number : {0, 9, 255}) EXPECT_EQ(OrientationIn(Exif(number, big)), 1);
+  }
+  const std::string segment(
+      "\xE1\0\x22"
+      "Exif\0\0",
+      9);
+  const std::string whole = jpeg_start + segment + Exif(6, false);
+  for (std::size_t end = 0; end + 8 < whole.size(); ++end) {
+    EXPECT_EQ(OrientationIn(whole.substr(0, end)), 1) << end;
+  }
+}
+
 }  // namespace image_header_test
 }  // namespace plumbline

@@ -52,6 +52,44 @@ TEST(ReadKalibr, TheSecondCameraStandsWhereItsMotionSays) {
   EXPECT_LT((in_right - Eigen::Vector3d(0.9, -2.98, 2.03)).norm(), 1e-12);
 }
 
+// OpenVINS writes the places of both at the inertial sensor alone, one way or the other.
+TEST(ReadKalibr, ThePairFollowsFromThePlacesOfBothAtTheInertialSensor) {
+  // Points of cam0, cam1 and the sensor: x0 = R (x - (1, 2, 3)), x1 = R (x - (1.1, 2, 3)), where R
+  // turns by a right angle about x.
+  const std::string rows_0 = "  - [1, 0, 0, -1]\n  - [0, 0, -1, 3]\n  - [0, 1, 0, -2]\n";
+  const std::string rows_1 = "  - [1, 0, 0, -1.1]\n  - [0, 0, -1, 3]\n  - [0, 1, 0, -2]\n";
+  const std::string back_0 = "  - [1, 0, 0, 1]\n  - [0, 0, 1, 2]\n  - [0, -1, 0, 3]\n";
+  const std::string back_1 = "  - [1, 0, 0, 1.1]\n  - [0, 0, 1, 2]\n  - [0, -1, 0, 3]\n";
+  const std::string last = "  - [0, 0, 0, 1]\n";
+  const auto pair = [&](const std::string& key, const std::string& a, const std::string& b) {
+    return CameraText("cam0", "  " + key + ":\n" + a + last) +
+           CameraText("cam1", "  " + key + ":\n" + b + last);
+  };
+  for (const std::string& text :
+       {pair("T_cam_imu", rows_0, rows_1), pair("T_imu_cam", back_0, back_1)}) {
+    const Calibration c = ParseCamera("%YAML:1.0\n" + text, "kalibr_imucam_chain.yaml");
+    ASSERT_TRUE(c.right);
+    EXPECT_LT((c.right_from_left.translation - Eigen::Vector3d(-0.1, 0, 0)).norm(), 1e-12);
+    EXPECT_LT(c.right_from_left.rotation.vec().norm(), 1e-12);
+  }
+  const auto message = [](const std::string& text) {
+    return MessageOf([&] { ParseCamera(text, "x.yaml"); });
+  };
+  EXPECT_THAT(message(pair("T_imu_cam", back_1, back_0)),
+              HasSubstr("x.yaml:21: cam1.T_imu_cam: expected the right camera"));
+  EXPECT_THAT(message(CameraText("cam0", "  T_imu_cam:\n" + back_0 + last) +
+                      CameraText("cam1", "  T_cam_imu:\n" + rows_1 + last)),
+              HasSubstr("cam1.T_cn_cnm1: expected it, or T_cam_imu or T_imu_cam of both cameras"));
+  // Kalibr's own counts.
+  EXPECT_LT(
+      (ParseCamera(pair("T_imu_cam", back_0, back_0) + kPair.substr(kPair.find("  T_cn_cnm1")),
+                   "x.yaml")
+           .right_from_left.translation -
+       Eigen::Vector3d(-0.1, 0.02, 0.03))
+          .norm(),
+      1e-12);
+}
+
 // Folders of images have no times, and depth images no unit.
 TEST(ReadKalibr, RateAndDepthFactorMayBeAdded) {
   const std::string added = "  rate_hz: 20\n  depth_factor: 5000\n";
@@ -93,8 +131,10 @@ TEST(ReadKalibr, BadFilesAreNamedByLineAndKey) {
   EXPECT_THAT(message("0.3, 0.4]", "0.3]"),
               HasSubstr("camchain.yaml:5: cam0.distortion_coeffs: expected 4 numbers, found 3"));
   EXPECT_THAT(message("[512, 500]", "[512]"), HasSubstr("cam0.resolution: expected 2 numbers"));
-  EXPECT_THAT(message("T_cn_cnm1", "T_cam_imu"),
-              HasSubstr("camchain.yaml:9: cam1.T_cn_cnm1: expected 16 numbers, found no list"));
+  EXPECT_THAT(
+      message("T_cn_cnm1", "T_cam_imu"),
+      HasSubstr("camchain.yaml:9: cam1.T_cn_cnm1: expected it, or T_cam_imu or T_imu_cam of "
+                "both cameras, found none"));
   EXPECT_THAT(message("[0, 0, 0, 1]", "[0, 0, 0]"),
               HasSubstr("cam1.T_cn_cnm1: expected 4 rows of 4 numbers, found a row of 3"));
   EXPECT_THAT(message("[0, 1, 0, 0.03]", "[0, 2, 0, 0.03]"),

@@ -4,6 +4,8 @@
 
 #include "plumbline/features/extractor.h"
 #include "plumbline/image/box_filter.h"
+#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/png.h"
 
 #include "tests/e2e/poster_sequence.h"
 #include "tests/io/scratch_folder.h"
@@ -11,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -54,7 +57,9 @@ TEST(KeyFrameImages, AreThoseOfTheirTimes) {
   const KeyFrameImages images(sequence, {}, saved);
   const MovingPoster poster;
   for (const auto& [id, frame] : {std::pair{0, 2}, std::pair{1, 9}}) {
-    const GrayImage image = images.Read(*saved.map.Find(KeyFrameId{id}));
+    const ColorImage read = images.Read(*saved.map.Find(KeyFrameId{id}));
+    EXPECT_TRUE(IsGray(read));
+    const GrayImage& image = read.red;
     const GrayImage expected = poster.Frame(frame).left;
     ASSERT_EQ(image.width(), expected.width());
     EXPECT_TRUE(
@@ -75,7 +80,7 @@ TEST(KeyFrameImages, FindTheSensorThatTheMapWasMadeWith) {
   single.rectified = false;
   const SavedMap mono = MapAt({MovingPoster::StampNs(1)}, single);
   const KeyFrameImages images(sequence, {}, mono);
-  EXPECT_EQ(images.Read(*mono.map.Find(KeyFrameId{0})).at(30, 40),
+  EXPECT_EQ(images.Read(*mono.map.Find(KeyFrameId{0})).red.at(30, 40),
             MovingPoster().Frame(1).left.at(30, 40));
   EXPECT_THAT(MessageOf([&] { KeyFrameImages(sequence, {.sensor = SensorKind::kStereo}, mono); }),
               HasSubstr("sequence: expected the camera that the map was made with, found another "
@@ -114,6 +119,40 @@ SavedMap MapOfImage(int frame, const GrayImage& image, const FeatureOptions& opt
   saved.map.Apply({edit::AddKeyFrame{keyframe}});
   saved.octave_scale = options.orb.scale_factor;
   return saved;
+}
+
+// Frames of a data set in colour are compared by their grey levels, and come out in colour.
+TEST(KeyFrameImages, AreInColourWhereTheDataAre) {
+  const ScratchFolder folder;
+  const std::filesystem::path sequence = WritePosterSequence(folder, 12);
+  const MovingPoster poster;
+  const auto colored = [&](int frame) {
+    ColorImage image = ToColor(poster.Frame(frame).left);
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) {
+        image.blue.at(x, y) = static_cast<std::uint8_t>(255 - image.blue.at(x, y));
+      }
+    }
+    return image;
+  };
+  for (const int frame : {2, 5}) {
+    WriteColorPng(sequence / fmt::format("mav0/cam0/data/{}.png", frame), colored(frame));
+  }
+  const SavedMap saved = MapOfImage(2, ToGray(colored(2)));
+  const auto open = [&] { return OpenDataset(sequence, {.sensor = SensorKind::kStereo}); };
+  for (const KeyFrameImages& images :
+       {KeyFrameImages(sequence, {}, saved), KeyFrameImages(open(), saved)}) {
+    const ColorImage image = images.Read(*saved.map.Find(KeyFrameId{0}));
+    EXPECT_TRUE(image.at(30, 40) == colored(2).at(30, 40));
+    EXPECT_FALSE(IsGray(image));
+    EXPECT_TRUE(images.HasFrame(MovingPoster::StampNs(5)));
+    EXPECT_FALSE(images.HasFrame(MovingPoster::StampNs(5) + 1));
+    EXPECT_TRUE(images.ReadAt(MovingPoster::StampNs(5)).at(30, 40) == colored(5).at(30, 40));
+  }
+  const SavedMap other = MapOfImage(2, poster.Frame(9).left);
+  EXPECT_THAT(
+      MessageOf([&] { KeyFrameImages(open(), other).Read(*other.map.Find(KeyFrameId{0})); }),
+      HasSubstr("expected the images that the map was made of"));
 }
 
 // Frames of the same times that are others: of a run that was played backwards, or of another

@@ -6,6 +6,7 @@
 
 #include "tests/io/scratch_folder.h"
 #include "tests/support/true_map.h"
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -55,6 +56,26 @@ TEST(WriteNerfstudioTransforms, CamerasSeeThePointsWhereTheyAre) {
     }
   }
   EXPECT_GT(seen, 40);
+}
+
+TEST(WriteNerfstudioTransforms, HasFramesBehindTheKeyframes) {
+  const ScratchFolder folder;
+  const SyntheticWorld world = MakeSyntheticWorld(60, 0);
+  SavedMap saved;
+  saved.camera = world.camera;
+  saved.map = MakeTrueMap(world, {PoseOnPath(0), PoseOnPath(30)}, {.noise = 0}).map;
+  const std::vector<PosedImage> others = {{7, "7.png", {{1, 0, 0, 0}, {1, 2, -3}}}};
+  WriteNerfstudioTransforms(folder / "transforms.json",
+                            saved,
+                            "images",
+                            KeyFrameImageNames(saved.map),
+                            "points.ply",
+                            others);
+  const auto json = nlohmann::json::parse(Contents(folder / "transforms.json"));
+  ASSERT_EQ(json["frames"].size(), 3U);
+  EXPECT_EQ(json["frames"][2]["file_path"], "images/7.png");
+  EXPECT_EQ(json["frames"][2]["transform_matrix"],
+            nlohmann::json::parse("[[1, 0, 0, -1], [0, -1, 0, -2], [0, 0, -1, 3], [0, 0, 0, 1]]"));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include "plumbline/io/ply.h"
 
 #include "tests/io/scratch_folder.h"
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -29,15 +28,15 @@ TEST(WritePly, WritesPointsThenSegmentsAsEdges) {
             "1 2\n");
 }
 
-TEST(WritePly, GivesPointsTheirGreys) {
+TEST(WritePly, GivesPointsTheirColours) {
   const ScratchFolder folder;
   const std::vector<Eigen::Vector3d> points = {{1, 2, 3}, {4, 5, 6}};
-  const std::vector<std::uint8_t> greys = {0, 255};
-  WritePly(folder / "m.ply", points, {}, greys);
+  const std::vector<Color> colors = {{0, 1, 2}, {255, 254, 3}};
+  WritePly(folder / "m.ply", points, {}, colors);
   const std::string text = Contents(folder / "m.ply");
   EXPECT_TRUE(
-      text.ends_with("end_header\n1.000000 2.000000 3.000000 0 0 0\n"
-                     "4.000000 5.000000 6.000000 255 255 255\n"));
+      text.ends_with("end_header\n1.000000 2.000000 3.000000 0 1 2\n"
+                     "4.000000 5.000000 6.000000 255 254 3\n"));
 }
 
 TEST(WriteObjLines, CountsVerticesFromOne) {

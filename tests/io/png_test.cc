@@ -27,6 +27,19 @@ TEST(WriteGrayPng, KeepsThePixels) {
   }
 }
 
+TEST(WriteColorPng, KeepsThePixels) {
+  const ScratchFolder folder;
+  const ColorImage image{GrayImage(20, 10, 1), GrayImage(20, 10, 2), GrayImage(20, 10, 3)};
+  WriteColorPng(folder / "color.png", image);
+  const auto read = ReadColorImage(folder / "color.png");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->width(), 20);
+  EXPECT_TRUE((read->at(19, 9) == Color{1, 2, 3}));
+  WriteColorPng(folder / "gray.png", ToColor(image.red));
+  WriteGrayPng(folder / "one channel.png", image.red);
+  EXPECT_EQ(Contents(folder / "gray.png"), Contents(folder / "one channel.png"));
+}
+
 TEST(WriteOverlayPng, DrawsInTheColoursGiven) {
   const ScratchFolder folder;
   const GrayImage image(40, 30, 100);

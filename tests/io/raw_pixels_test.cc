@@ -4,6 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -17,7 +22,7 @@ TEST(RawPixels, KnowsWhatEncodingsShow) {
   for (const char* name : {"mono16", "16UC1", "32FC1"}) {
     EXPECT_EQ(ContentsOfEncoding(name), ImageContents::kDepth) << name;
   }
-  EXPECT_EQ(ContentsOfEncoding("bayer_rggb8"), std::nullopt);
+  EXPECT_EQ(ContentsOfEncoding("bayer_rggb16"), std::nullopt);
   EXPECT_EQ(PixelBytes("rgb8"), 3);
   EXPECT_EQ(PixelBytes("32FC1"), 4);
 }
@@ -35,6 +40,57 @@ TEST(RawPixels, ReadsDepthOfEitherByteOrder) {
   const std::array<std::uint8_t, 4> negative_bytes = {0xBF, 0xC0, 0, 0};
   const RawPixels negative{"32FC1", 1, 1, 4, true, negative_bytes};
   EXPECT_EQ(DepthOfPixels("x", negative, 1000, std::nullopt)->at(0, 0), 0.0F);
+}
+
+// A grey ramp from left to right, as each encoding has it.
+TEST(RawPixels, DecodesWhatCamerasSend) {
+  constexpr std::uint32_t kWidth = 16, kHeight = 12;
+  for (const char* name : {"bayer_rggb8",
+                           "bayer_bggr8",
+                           "bayer_gbrg8",
+                           "bayer_grbg8",
+                           "yuv422",
+                           "uyvy",
+                           "yuv422_yuy2",
+                           "yuyv",
+                           "nv12",
+                           "nv21"}) {
+    const auto bytes = static_cast<std::uint32_t>(PixelBytes(name));
+    const bool grey_first = std::string_view(name).find("yuy") != std::string_view::npos;
+    std::vector<std::uint8_t> data;
+    for (int y = 0; y < PixelRows(name, kHeight); ++y) {
+      for (std::uint32_t x = 0; x < kWidth; ++x) {
+        const auto level = static_cast<std::uint8_t>(y < int{kHeight} ? 10 * x : 128);
+        data.push_back(bytes == 1 || grey_first ? level : 128);
+        if (bytes == 2) data.push_back(grey_first ? 128 : level);
+      }
+    }
+    RawPixels pixels{name, kWidth, kHeight, kWidth * bytes, false, data};
+    const auto gray = GrayOfPixels("x", pixels, std::nullopt);
+    ASSERT_TRUE(gray) << name;
+    for (int x = 2; x < 14; ++x) EXPECT_NEAR(gray->at(x, 6), 10 * x, 5) << name;
+    pixels.data = pixels.data.first(data.size() - 1);
+    EXPECT_FALSE(GrayOfPixels("x", pixels, std::nullopt)) << name;
+  }
+}
+
+// Of a red image, each pattern has light where its name has an r.
+TEST(RawPixels, KnowsWhichPixelOfAPatternIsRed) {
+  const std::map<std::string, std::pair<int, int>> red = {{"bayer_rggb8", {0, 0}},
+                                                          {"bayer_grbg8", {1, 0}},
+                                                          {"bayer_gbrg8", {0, 1}},
+                                                          {"bayer_bggr8", {1, 1}}};
+  for (const auto& [name, place] : red) {
+    std::vector<std::uint8_t> data(64, 0);
+    for (int y = place.second; y < 8; y += 2) {
+      for (int x = place.first; x < 8; x += 2) data[static_cast<std::size_t>(8 * y + x)] = 200;
+    }
+    const auto gray = GrayOfPixels("x", {name, 8, 8, 8, false, data}, std::nullopt);
+    ASSERT_TRUE(gray);
+    for (int y = 2; y < 6; ++y) {
+      for (int x = 2; x < 6; ++x) EXPECT_NEAR(gray->at(x, y), 0.299 * 200, 2) << name;
+    }
+  }
 }
 
 TEST(RawPixels, RefusesSizesThatDoNotGoTogether) {

@@ -10,6 +10,7 @@
 #include <bit>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -171,7 +172,23 @@ TEST(Recordings, TurnsColourIntoGreyAsImageFilesDo) {
   }
   const auto dataset = OpenDataset(Write(folder, bag));
   // 0.299 R + 0.587 G + 0.114 B
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(dataset->Read(i)->left.at(7, 5), 97) << i;
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(dataset->Read(i)->left.at(7, 5), 97) << i;
+    EXPECT_TRUE((dataset->ReadColor(i)->at(7, 5) == Color{0xA0, 0x50, 0x10})) << i;
+  }
+}
+
+TEST(Recordings, GivesColoursOfCompressedImages) {
+  const ScratchFolder folder;
+  BagWriter bag;
+  AddCamera(bag, "/c/camera_info", {});
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", cv::Mat(6, 8, CV_8UC3, cv::Scalar(16, 80, 160)), png);
+  AddPacked(bag, "/c/image/compressed", {kSecond, "png", 8, 6, 8, {png.begin(), png.end()}});
+  AddPacked(bag, "/c/image/compressed", {2 * kSecond, "png", 8, 6, 8, Png(8, 6, 7)});
+  const auto dataset = OpenDataset(Write(folder, bag));
+  EXPECT_TRUE((dataset->ReadColor(0)->at(7, 5) == Color{160, 80, 16}));
+  EXPECT_TRUE((dataset->ReadColor(1)->at(7, 5) == Color{7, 7, 7}));
 }
 
 TEST(Recordings, FindDepthByItsEncoding) {
@@ -274,9 +291,112 @@ TEST(Recordings, TellOnceOfImagesOf16Bits) {
   const auto dataset = OpenDataset(Write(folder, bag));
   EXPECT_THAT(dataset->info().notes,
               ElementsAre("topics: /c/image/compressed",
-                          "the images have 16 bits, of which the upper 8 are used: the brightest "
-                          "level of the first one, 4095 of 65535, becomes 15 of 255"));
-  EXPECT_EQ(dataset->Read(0)->left.at(0, 0), 15);
+                          "the images have 16 bits, of which 12 are used (the brightest level of 2 "
+                          "images is 4095): levels are divided by 16"));
+  EXPECT_EQ(dataset->Read(0)->left.at(0, 0), 255);
+}
+
+// Images of 16 bits whose levels go up to these.
+BagWriter DeepBag(const std::vector<std::string>& topics, const std::vector<int>& levels) {
+  BagWriter bag;
+  for (const std::string& topic : topics) {
+    std::int64_t stamp_ns = 0;
+    for (const int level : levels) {
+      TestImage image{stamp_ns += kSecond, "mono16", 8, 6, 18, ""};
+      for (int i = 0; i < 6; ++i) {
+        for (int k = 0; k < 8; ++k) {
+          image.data += LittleEndian(static_cast<std::uint64_t>(k == 0 ? level : level / 2), 2);
+        }
+        image.data += "**";  // rows have a margin
+      }
+      AddImage(bag, topic, image);
+    }
+  }
+  return bag;
+}
+
+std::string PairFile(const ScratchFolder& folder) {
+  return folder
+      .Write("pair.yaml",
+             "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrectified: true\nbaseline: 0.1\n"
+             "depth_factor: 1000\nright:\n  size: [8, 6]\n  intrinsics: [5, 5, 4, 3]\n")
+      .string();
+}
+
+TEST(Recordings, TakeAPairOf16BitsForImages) {
+  const ScratchFolder folder;
+  const auto path = Write(folder, DeepBag({"/cam0/image_raw", "/cam1/image_raw"}, {800, 900}));
+  const auto dataset = OpenDataset(path, {.camera = PairFile(folder)});
+  ASSERT_EQ(dataset->sensor(), SensorKind::kStereo);
+  EXPECT_THAT(dataset->info().notes,
+              Contains("the images have 16 bits, of which 10 are used (the brightest level of 4 "
+                       "images is 900): levels are divided by 4"));
+  EXPECT_EQ(dataset->Read(0)->left.at(0, 5), 200);
+  EXPECT_EQ(dataset->Read(1)->right->at(7, 5), 112);
+}
+
+TEST(Recordings, ScaleLevelsOf16BitsByWhatIsSeen) {
+  const std::map<int, int> expected = {{100, 100},
+                                       {255, 255},
+                                       {256, 64},
+                                       {1023, 255},
+                                       {1024, 64},
+                                       {4095, 255},
+                                       {4096, 64},
+                                       {65535, 255}};
+  for (const auto& [level, gray] : expected) {
+    const ScratchFolder folder;
+    const auto path = Write(folder, DeepBag({"/depth"}, {level}));
+    const auto dataset = OpenDataset(path, {.camera = PairFile(folder), .topics = {"/depth"}});
+    EXPECT_EQ(dataset->Read(0)->left.at(0, 0), gray) << level;
+  }
+}
+
+TEST(Recordings, TakeWhatIsNamedInItsOrder) {
+  const ScratchFolder folder;
+  BagWriter bag = DeepBag({"/ir", "/other", "/depth"}, {2000});
+  AddImage(bag, "/right/image", Gray(kSecond, 'r'));
+  AddImage(bag, "/left/image", Gray(kSecond, 'l'));
+  TestImage metres{kSecond, "32FC1", 8, 6, 32, std::string(192, '\0')};
+  AddImage(bag, "/metres", metres);
+  const auto path = Write(folder, bag);
+  const auto open = [&](const std::vector<std::string>& topics,
+                        std::optional<SensorKind> sensor = std::nullopt) {
+    return OpenDataset(path, {.sensor = sensor, .camera = PairFile(folder), .topics = topics});
+  };
+  // Whatever the names say.
+  const auto swapped = open({"/right/image", "/left/image"});
+  EXPECT_EQ(swapped->Read(0)->left.at(0, 0), 'r');
+  EXPECT_EQ(swapped->Read(0)->right->at(0, 0), 'l');
+  EXPECT_EQ(open({"/ir"})->sensor(), SensorKind::kMono);
+  EXPECT_EQ(open({"/ir", "/other"})->sensor(), SensorKind::kStereo);
+  EXPECT_EQ(open({"/ir", "/other"}, SensorKind::kRgbd)->sensor(), SensorKind::kRgbd);
+  EXPECT_EQ(open({"/ir", "/depth"})->sensor(), SensorKind::kRgbd);
+  EXPECT_EQ(open({"/ir", "/depth"}, SensorKind::kStereo)->sensor(), SensorKind::kStereo);
+  EXPECT_EQ(open({"/ir", "/metres"})->Read(0)->left.at(0, 0), 125);
+  EXPECT_EQ(open({"/left/image", "/ir"})->sensor(), SensorKind::kRgbd);
+  EXPECT_EQ(open({"/left/image", "/ir"})->Read(0)->depth->at(0, 0), 2.0F);
+  EXPECT_EQ(open({"/left/image", "/right/image", "/ir"})->info().available.size(), 3U);
+  const std::vector<std::vector<std::string>> wrong = {{"/metres"},
+                                                       {"/metres", "/left/image"},
+                                                       {"/depth", "/left/image"},
+                                                       {"/left/image", "/metres", "/right/image"},
+                                                       {"/ir", "/left/image", "/depth"},
+                                                       {"/ir", "/other", "/depth", "/metres"}};
+  for (const auto& topics : wrong) {
+    EXPECT_THAT(
+        MessageOf([&] { open(topics); }),
+        HasSubstr("expected --topic to name images in the order left, right, depth, found " +
+                  topics[0]));
+  }
+}
+
+TEST(Recordings, SayThat16BitsAloneMayBeDepth) {
+  const ScratchFolder folder;
+  const auto path = Write(folder, DeepBag({"/ir/image"}, {2000}));
+  EXPECT_THAT(MessageOf([&] { OpenDataset(path, {.camera = PairFile(folder)}); }),
+              HasSubstr("expected an image beside what may be depth, found /ir/image (mono16, 1 "
+                        "images); --topic NAME takes a topic of 16 bits for images"));
 }
 
 TEST(Recordings, ListTopicsWhereTheChoiceIsNotClear) {
@@ -285,12 +405,7 @@ TEST(Recordings, ListTopicsWhereTheChoiceIsNotClear) {
   AddImage(bag, "/front/image", Gray(kSecond, 'a'));
   AddImage(bag, "/back/image", Gray(kSecond, 'b'));
   const auto path = Write(folder, bag);
-  const std::string camera =
-      folder
-          .Write("pair.yaml",
-                 "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrectified: true\nbaseline: 0.1\n"
-                 "right:\n  size: [8, 6]\n  intrinsics: [5, 5, 4, 3]\n")
-          .string();
+  const std::string camera = PairFile(folder);
   const auto message = [&](const DatasetOptions& options) {
     return MessageOf([&] { OpenDataset(path, options); });
   };
@@ -372,8 +487,10 @@ TEST(Recordings, ReadCamerasAsTheyAreCalibrated) {
     return MessageOf([&] { opened(a, b, "image_raw"); });
   };
   TestCamera odd = left;
-  odd.model = "rational_polynomial";
-  EXPECT_THAT(message(odd, right), HasSubstr("/left/camera_info: expected distortion plumb_bob"));
+  odd.model = "thin_prism";
+  EXPECT_THAT(message(odd, right),
+              HasSubstr("/left/camera_info: expected distortion plumb_bob or equidistant, found "
+                        "'thin_prism': give --camera FILE"));
   odd = left;
   odd.binning = 2;
   EXPECT_THAT(message(odd, right), HasSubstr("expected whole images, found binned"));
@@ -390,6 +507,42 @@ TEST(Recordings, ReadCamerasAsTheyAreCalibrated) {
   EXPECT_THAT(message(odd, right), HasSubstr("/left/camera_info: expected fx"));
 }
 
+// Orbbec's driver sends a rational model that is none, RealSense's a name without distortion.
+TEST(Recordings, TakeModelsOfMoreNumbersThatAreZero) {
+  for (const Dialect dialect : {Dialect::kCdr, Dialect::kProtobuf}) {
+    const bool cdr = dialect == Dialect::kCdr;
+    const std::string package = cdr ? "sensor_msgs/msg/" : "foxglove.";
+    const auto opened = [&](const std::string& model, const std::vector<double>& d) {
+      const ScratchFolder folder;
+      McapWriter file;
+      TestCamera camera;
+      camera.model = model;
+      camera.d = d;
+      file.Add("/c/camera_info",
+               package + (cdr ? "CameraInfo" : "CameraCalibration"),
+               cdr ? "cdr" : "protobuf",
+               1,
+               CalibrationMessageOf(dialect, camera));
+      file.Add("/c/image",
+               package + (cdr ? "Image" : "RawImage"),
+               cdr ? "cdr" : "protobuf",
+               2,
+               RawImageMessage(dialect, Gray(kSecond, 'a')));
+      return OpenDataset(folder.Write("x.mcap", file.Finish()))->calibration().left.intrinsics();
+    };
+    EXPECT_EQ(opened("rational_polynomial", {0.1, -0.02, 0, 0, 0.003, 0, 0, 0}).distortion[4],
+              0.003);
+    EXPECT_EQ(opened("kannala_brandt", {0.1, -0.02, 0, 0}).model, DistortionModel::kEquidistant);
+    EXPECT_EQ(opened("Inverse Brown Conrady", {0, 0, 0, 0, 0}).model, DistortionModel::kNone);
+    EXPECT_EQ(opened("", {}).model, DistortionModel::kNone);
+    EXPECT_THAT(MessageOf([&] {
+                  opened("Inverse Brown Conrady", {0.1, 0, 0, 0, 0});
+                }),
+                HasSubstr("/c/camera_info: expected plumb_bob or equidistant, found 'Inverse Brown "
+                          "Conrady', whose numbers undo a distortion"));
+  }
+}
+
 TEST(Recordings, FailFrameByFrame) {
   const ScratchFolder folder;
   BagWriter bag;
@@ -401,7 +554,7 @@ TEST(Recordings, FailFrameByFrame) {
   const std::string png = Png(8, 6, 'c');
   AddPacked(bag, "/c/image", {3 * kSecond, "png", 0, 0, 0, png.substr(0, png.size() - 4)});
   TestImage bayer = Gray(4 * kSecond, 'd');
-  bayer.encoding = "bayer_rggb8";
+  bayer.encoding = "bayer_rggb16";
   AddImage(bag, "/c/image", bayer);
   const auto dataset = OpenDataset(Write(folder, bag));
   ASSERT_EQ(dataset->size(), 4U);
@@ -409,7 +562,7 @@ TEST(Recordings, FailFrameByFrame) {
   EXPECT_EQ(dataset->Read(1).error().why, "/c/image: expected 48 bytes of pixels, found 40");
   EXPECT_EQ(dataset->Read(2).error().why, "/c/image: the file ends early");
   EXPECT_EQ(dataset->Read(3).error().why,
-            "/c/image: expected an image, found encoding 'bayer_rggb8'");
+            "/c/image: expected an image, found encoding 'bayer_rggb16'");
 }
 
 TEST(Recordings, OrderImagesByTheSensorsStamps) {
@@ -444,6 +597,52 @@ std::vector<std::int64_t> FramesOfStamps(const std::vector<std::int64_t>& stamps
     logged_ns += kSecond;
   }
   return OpenDataset(Write(folder, bag))->info().stamps_ns;
+}
+
+// Such stamps come from clocks that were not set, and from messages that were not filled in.
+TEST(Recordings, TakeTheTimeOfRecordingForStampsThatAreNoTime) {
+  const ScratchFolder folder;
+  McapWriter file;
+  file.Add("/c/camera_info",
+           "sensor_msgs/msg/CameraInfo",
+           "cdr",
+           1,
+           CalibrationMessageOf(Dialect::kCdr, {}));
+  for (const int i : {1, 2, 3}) {
+    std::string message = RawImageMessage(Dialect::kCdr, Gray(i * kSecond, 'a'));
+    if (i > 1) message.replace(4, 4, LittleEndian(0xFFFFFFFEU, 4));  // -2 s
+    file.Add("/c/image", "sensor_msgs/msg/Image", "cdr", i * kSecond + 7, message);
+  }
+  const auto dataset = OpenDataset(folder.Write("x.mcap", file.Finish()));
+  EXPECT_THAT(dataset->info().stamps_ns, ElementsAre(kSecond, 2 * kSecond + 7, 3 * kSecond + 7));
+  EXPECT_THAT(dataset->info().notes, Contains(HasSubstr("2 images of /c/image have no stamp")));
+  EXPECT_THAT(FramesOfStamps({99 * kSecond, 4'294'967'295 * kSecond}),
+              ElementsAre(99 * kSecond, 101 * kSecond));
+}
+
+TEST(Recordings, SayThatNoCameraIsSoFast) {
+  const auto notes = [](std::int64_t interval_ns) {
+    const ScratchFolder folder;
+    BagWriter bag;
+    AddCamera(bag, "/c/camera_info", {});
+    for (int i = 0; i < 12; ++i) AddImage(bag, "/c/image", Gray(kSecond + i * interval_ns, 'a'));
+    return OpenDataset(Write(folder, bag))->info().notes;
+  };
+  EXPECT_THAT(notes(50'000),
+              Contains("the time stamps are those of 20000 frames a second, which no "
+                       "camera takes: are they in another unit than nanoseconds?"));
+  EXPECT_THAT(notes(1'000'000), Not(Contains(HasSubstr("frames a second"))));
+}
+
+TEST(Recordings, NameTheTopicOfDepthOfAnotherSize) {
+  const ScratchFolder folder;
+  BagWriter bag;
+  AddCamera(bag, "/rgb/camera_info", {});
+  AddImage(bag, "/rgb/image", Gray(kSecond, 'a'));
+  AddImage(bag, "/depth/image", {kSecond, "16UC1", 4, 3, 8, std::string(24, '\1')});
+  EXPECT_THAT(MessageOf([&] { OpenDataset(Write(folder, bag)); }),
+              HasSubstr("x.bag: /depth/image: expected an image of 8x6 pixels as in the "
+                        "calibration, found 4x3"));
 }
 
 // A simulation begins at 0; elsewhere 0 means that nobody set the stamp.

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/io/open_dataset.h"
+#include "plumbline/io/png.h"
 
 #include "tests/io/dataset_fixtures.h"
 #include "tests/io/scratch_folder.h"
@@ -55,6 +56,17 @@ TEST(PlayedBackwards, KeepsDepthWithItsImage) {
   EXPECT_FLOAT_EQ(played->Read(0)->depth->at(0, 0), 2);
   EXPECT_EQ(played->Read(1)->left.at(0, 0), 1);
   EXPECT_FLOAT_EQ(played->Read(1)->depth->at(0, 0), 1);
+}
+
+TEST(PlayedBackwards, KeepsColours) {
+  const ScratchFolder folder;
+  WriteTumFolder(folder);
+  const ColorImage color{GrayImage(8, 6, 9), GrayImage(8, 6, 8), GrayImage(8, 6, 7)};
+  const auto recorded = [&] { return OpenDataset(folder.path(), {.sensor = SensorKind::kMono}); };
+  WriteColorPng(folder / "rgb/1.png", color);
+  const auto played = PlayedBackwards(recorded(), {0, 1});
+  EXPECT_TRUE((played->ReadColor(1)->at(7, 5) == Color{9, 8, 7}));
+  EXPECT_TRUE((played->ReadColor(0)->at(7, 5) == Color{2, 2, 2}));
 }
 
 TEST(PlayedBackwards, KeepsTheGroundTruthWithItsImages) {

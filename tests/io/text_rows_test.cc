@@ -80,6 +80,27 @@ TEST(ParseNanoseconds, EndsWhereSumsWouldOverflow) {
   }
 }
 
+TEST(ParseDateAndTime, CountsFrom1970) {
+  EXPECT_EQ(ParseDateAndTime("1970-01-01", "00:00:00"), 0);
+  EXPECT_EQ(ParseDateAndTime("2011-09-26", "13:02:25.964389445"), 1'317'042'145'964'389'445);
+  EXPECT_EQ(ParseDateAndTime("2012-02-29", "23:59:59.9999999999"), 1'330'560'000'000'000'000);
+  for (const auto& [date, time] :
+       std::vector<std::pair<const char*, const char*>>{{"2011-02-29", "00:00:00"},
+                                                        {"1969-12-31", "00:00:00"},
+                                                        {"9999-01-01", "00:00:00"},
+                                                        {"2011/09/26", "00:00:00"},
+                                                        {"2011-09-26", "24:00:00"},
+                                                        {"2011-09-26", "00:60:00"},
+                                                        {"2011-09-26", "00:00:60"},
+                                                        {"2011-09-26", "00:00"},
+                                                        {"2011-09-26", "00:00:00,5"},
+                                                        {"2011-09-26", "00:00:00.5x"},
+                                                        {"2011-09-2", "00:00:00"},
+                                                        {"", ""}}) {
+    EXPECT_EQ(ParseDateAndTime(date, time), std::nullopt) << date << " " << time;
+  }
+}
+
 TEST(PlaceFields, AreFiniteAndNotTooFar) {
   const TextRow row{3, {"1", "-1e9", "1e9", "1e308", "nan"}};
   EXPECT_EQ(PlaceFields("a.txt", row, 0), Eigen::Vector3d(1, -1e9, 1e9));

@@ -17,6 +17,7 @@
 namespace plumbline {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 TEST(FormatStamp, IsExact) {
@@ -131,21 +132,64 @@ TEST(ReadTrajectory, BadRowsAreNamedByLine) {
   }
 }
 
-TEST(ReadKittiPoses, RefusesWrongCountsAndMatrices) {
+TEST(ReadTrajectory, RefusesWrongCountsAndMatricesOfKitti) {
   const ScratchFolder folder;
-  const auto file = folder.Write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 2 0\n");
-  EXPECT_THAT(MessageOf([&] { ReadKittiPoses(file, {1}); }),
-              HasSubstr("expected 1 poses, one for each time, found 2"));
-  EXPECT_THAT(MessageOf([&] {
-                ReadKittiPoses(file, {1, 2});
-              }),
+  const std::vector<StampedRow> one = {{1, 1}}, two = {{1, 1}, {2, 2}};
+  const auto message = [&](const std::string& rows, const std::vector<StampedRow>& times) {
+    const auto file = folder.Write("poses.txt", rows);
+    return MessageOf([&] { ReadTrajectory(file, BadRows::kRefuse, &times); });
+  };
+  const std::string good = "1 0 0 0 0 1 0 0 0 0 1 0\n";
+  EXPECT_EQ(message(good, one), "no error");
+  EXPECT_THAT(message(good + good, one),
+              HasSubstr("poses.txt: expected 1 poses, one for each time, found 2"));
+  EXPECT_THAT(message(good + "1 0 0 0 0 1 0 0 0 0 2 0\n", two),
               HasSubstr("poses.txt:2: expected a rotation matrix"));
-  const auto mirrored = folder.Write("mirrored.txt", "1 0 0 0 0 1 0 0 0 0 -1 0\n");
-  EXPECT_THAT(MessageOf([&] { ReadKittiPoses(mirrored, {1}); }),
-              HasSubstr("mirrored.txt:1: expected a rotation matrix"));
-  const auto cut = folder.Write("cut.txt", "1 0 0 0 0 1 0 0 0 0 1\n");
-  EXPECT_THAT(MessageOf([&] { ReadKittiPoses(cut, {1}); }),
-              HasSubstr("cut.txt:1: expected 12 numbers, a 3x4 matrix, found 11 columns"));
+  EXPECT_THAT(message("1 0 0 0 0 1 0 0 0 0 -1 0\n", one),
+              HasSubstr("poses.txt:1: expected a rotation matrix"));
+  EXPECT_THAT(message(good + "1 0 0 0 0 1 0 0 0 0 1\n", two),
+              HasSubstr("poses.txt:2: expected 12 numbers, a 3x4 matrix, found 11 columns"));
+}
+
+// Rows of KITTI have their time by their number: a pose goes where its time goes.
+TEST(ReadTrajectory, PosesOfKittiFollowTheirTimes) {
+  const ScratchFolder folder;
+  folder.Write("times.txt", "0.2\n0.1\n0.2\n0.3\n");
+  std::string rows;
+  for (int i = 0; i < 4; ++i) rows += "1 0 0 0 0 1 0 0 0 0 1 " + std::to_string(i) + "\n";
+  const auto file = folder.Write("poses.txt", rows);
+  for (const BadRows bad_rows : {BadRows::kRefuse, BadRows::kLeaveOut}) {
+    const LoadedTrajectory read = ReadTrajectory(file, bad_rows);
+    std::vector<double> places;
+    for (const StampedPose& pose : read.poses) {
+      places.push_back(pose.world_from_camera.translation.z());
+    }
+    EXPECT_THAT(places, ElementsAre(1, 0, 3));
+    EXPECT_EQ(read.poses[0].stamp_ns, 100'000'000);
+    EXPECT_THAT(read.notes,
+                ElementsAre(HasSubstr("times.txt:3: 1 row repeats a time stamp and is left out"),
+                            HasSubstr("times.txt:2: 1 row goes back in time and is sorted in")));
+  }
+}
+
+// What a strict reader refuses; see ground_truth_test.cc for data sets.
+TEST(ReadTrajectory, LeavesBadRowsOutOnRequest) {
+  const ScratchFolder folder;
+  const auto file = folder.Write("t.txt",
+                                 "time x y z qx qy qz qw\n1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"
+                                 "0.5 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1 9\n3 0 0 0 0 0 0 1\n4 0\n");
+  EXPECT_NE(MessageOf([&] { ReadTrajectory(file); }), "no error");
+  const LoadedTrajectory read = ReadTrajectory(file, BadRows::kLeaveOut);
+  ASSERT_EQ(read.poses.size(), 2U);
+  EXPECT_EQ(read.poses[1].stamp_ns, 3'000'000'000);
+  EXPECT_THAT(read.notes,
+              ElementsAre(HasSubstr("t.txt:3: 1 row repeats a time stamp and is left out"),
+                          HasSubstr("t.txt:4: 1 row goes back in time and is left out"),
+                          HasSubstr("t.txt:1: expected a time stamp in seconds, found 'time'; 3 "
+                                    "rows that cannot be used are left out")));
+  const auto none = folder.Write("none.txt", "a 0 0 0 0 0 0 1\nb 0 0 0 0 0 0 1\n");
+  EXPECT_THAT(MessageOf([&] { ReadTrajectory(none, BadRows::kLeaveOut); }),
+              HasSubstr("none.txt:1: expected a time stamp in seconds, found 'a'"));
 }
 
 TEST(WriteTum, StampsThatAreReadableAreRead) {
@@ -160,6 +204,15 @@ TEST(WriteTum, StampsThatAreReadableAreRead) {
   ASSERT_EQ(read.size(), 2U);
   EXPECT_EQ(read.front().stamp_ns, -kLatestStampNs);
   EXPECT_EQ(read.back().stamp_ns, kLatestStampNs);
+}
+
+TEST(FormatTum, WritesRotationsOfNormOne) {
+  const Eigen::Quaterniond turn = ExpSo3({0.3, -0.5, 0.2});
+  Rigid3 off{turn, {1, 2, 3}};
+  off.rotation.coeffs() *= 1.008;
+  EXPECT_EQ(FormatTum({{1, off}}), FormatTum({{1, {turn, {1, 2, 3}}}}));
+  off.rotation.coeffs() *= 2;
+  EXPECT_THROW(FormatTum({{1, off}}), InputError);
 }
 
 TEST(WriteTum, RefusesWhatWouldNotBeRead) {
@@ -179,6 +232,10 @@ TEST(WriteTum, RefusesWhatWouldNotBeRead) {
             start + "1 (from 0): expected coordinates within 1e+09 of 0, found -2e+09");
   EXPECT_EQ(message({{1, at(std::numeric_limits<double>::quiet_NaN())}}),
             start + "0 (from 0): expected coordinates within 1e+09 of 0, found nan");
+  Rigid3 scaled;
+  scaled.rotation.coeffs() *= 2;
+  EXPECT_EQ(message({{1, Rigid3()}, {2, scaled}}),
+            start + "1 (from 0): expected a quaternion of norm 1, found one of norm 2");
   EXPECT_FALSE(std::filesystem::exists(folder / "t.txt"));
 }
 

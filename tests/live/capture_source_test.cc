@@ -67,6 +67,29 @@ TEST_F(Pipelines, AreTakenApartSideBySide) {
   EXPECT_EQ(frame.right.value().at(0, 10), 255);
 }
 
+TEST_F(Pipelines, AreTurnedAndReduced) {
+  const std::string two =
+      "gst:videotestsrc num-buffers=2 pattern=black ! "
+      "video/x-raw,width=32,height=48,framerate=100/1 ! "
+      "videobox right=-32 fill=white ! videoconvert ! appsink";
+  LiveOptions options = Options("64, 48");
+  options.sensor = SensorKind::kMono;
+  options.rotate = Rotation::k90;
+  options.max_width = 24;
+  const auto source = OpenLiveSource(two, options);
+  EXPECT_EQ(source->info().calibration.left.width(), 24);
+  EXPECT_EQ(source->info().calibration.left.height(), 32);
+  EXPECT_EQ(source->info().notes.size(), 2U);
+  const auto frame = std::get<SensorFrame>(source->Next());
+  ASSERT_EQ(frame.left.width(), 24);
+  EXPECT_EQ(frame.left.at(12, 2), 0);  // the left side comes to the top
+  EXPECT_EQ(frame.left.at(12, 30), 255);
+  LiveOptions pair = Options("32, 48");
+  pair.side_by_side = true;
+  pair.rotate = Rotation::k90;
+  EXPECT_THAT(MessageOf([&] { OpenLiveSource(two, pair); }), HasSubstr("found a stereo pair"));
+}
+
 // The signal becomes smaller and is as large as before in the end.
 TEST_F(Pipelines, LeaveOutFramesOfAnotherSize) {
   std::string pipeline = "gst:concat name=all ! videoconvert ! appsink";

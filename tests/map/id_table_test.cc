@@ -182,5 +182,44 @@ TEST(IdTable, GoesThroughOnePage) {
   EXPECT_EQ(table.TakenOfPage(1), 0U);
 }
 
+TEST(IdTable, IsAsItWasUnlessChangesAreKept) {
+  Rng rng(1);
+  for (int round = 0; round < 200; ++round) {
+    Table table;
+    for (int i = 0; i < 20; ++i) {
+      table.Insert(PointId{static_cast<std::int64_t>(rng.Index(300))}, std::to_string(i));
+    }
+    const Table copy = table;
+    const std::vector before(copy.begin(), copy.end());
+    const std::uint64_t changes = table.changes();
+    const bool keep = round % 2 == 0;
+    std::vector<std::pair<PointId, std::string>> changed;
+    {
+      Table::Undo undo(table);
+      for (int i = 0; i < 30; ++i) {
+        const PointId id{static_cast<std::int64_t>(rng.Index(500))};
+        if (rng.Index(3) == 0) table.Insert(id, "new");
+        if (rng.Index(3) == 0) table.Erase(id);
+        if (std::string* entry = table.Find(id)) *entry += " changed";
+      }
+      table.ForEach([](PointId, std::string& entry) { entry += "!"; });
+      changed.assign(table.begin(), table.end());
+      if (keep) undo.Keep();
+    }
+    using Entries = std::vector<std::pair<PointId, std::string>>;
+    EXPECT_EQ(Entries(copy.begin(), copy.end()), Entries(before.begin(), before.end()));
+    EXPECT_EQ(Entries(table.begin(), table.end()),
+              keep ? changed : Entries(before.begin(), before.end()));
+    EXPECT_EQ(table.size(), keep ? changed.size() : before.size());
+    // It is the same table, whose pages tell what changed.
+    EXPECT_GE(table.changes(), changes);
+    for (std::size_t page = 0; !keep && page < table.page_count(); ++page) {
+      EXPECT_LE(table.PageChanged(page), changes);
+    }
+    table.Insert(PointId{600}, "later");
+    EXPECT_EQ(table.rbegin()->second, "later");
+  }
+}
+
 }  // namespace
 }  // namespace plumbline

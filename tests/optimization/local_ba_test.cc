@@ -245,6 +245,26 @@ TEST(SolveLocalBa, AnIndexOutOfRangeIsABug) {
   EXPECT_THROW(SolveLocalBa(problem), BugError);
 }
 
+TEST(SolveLocalBa, NormalizesRotationsThatAreOffByLittleAndRefusesOthers) {
+  const BaProblem problem = MakeBaScene(14, {.points = 60, .lines = 10, .sigma = 1}).problem;
+  const auto scaled = [&](double norm) {
+    BaProblem off = problem;
+    for (auto& pose : off.poses) pose.cam_from_world.rotation.coeffs() *= norm;
+    return off;
+  };
+  const BaResult exact = SolveLocalBa(problem), off = SolveLocalBa(scaled(1.006));
+  for (std::size_t i = 0; i < exact.poses.size(); ++i) {
+    EXPECT_LT(LogSe3(off.poses[i] * Inverse(exact.poses[i])).norm(), 1e-6) << i;
+    EXPECT_NEAR(off.poses[i].rotation.norm(), 1, 1e-12);
+  }
+  try {
+    SolveLocalBa(scaled(2));
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "poses[0]: expected a quaternion of norm 1, found one of norm 2");
+  }
+}
+
 TEST(SolveLocalBa, LetsGoOfALineThatIsNotParallel) {
   BaScene scene = MakeBaScene(32, {.sigma = 1});
   const BaResult without = SolveLocalBa(scene.problem);

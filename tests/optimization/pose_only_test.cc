@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/optimization/pose_only.h"
 
+#include "plumbline/geometry/covariance.h"
 #include "plumbline/optimization/residuals.h"
 
 #include "tests/optimization/pose_scene.h"
+#include <iterator>
+#include <vector>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 namespace plumbline {
@@ -51,6 +55,43 @@ TEST(SolvePose, WeighsThePriorAgainstTheMatches) {
   const Vector6d moved = LogSe3(both.cam_from_world * Inverse(scene.truth));
   EXPECT_LT((moved - away / 3).norm(), 0.01 * away.norm());
   EXPECT_LT((both.information - 1.5 * alone.information).norm(), 0.01 * alone.information.norm());
+}
+
+// The residuals are differentiated by the centre of the camera and the turn about the axes of the
+// world, in which the covariance is given out.
+TEST(SolvePose, CovarianceOfThePoseIsTheInverseOfTheNormalMatrix) {
+  const Scene scene = MakePoseScene(4, {.points = 12, .lines = 5, .disparity = true});
+  const PoseOnlyResult result = SolvePose(scene.problem, {.decrement_tolerance = 1e-14});
+  ASSERT_TRUE(result.converged);
+  ASSERT_EQ(result.inlier_points, 12);
+  const Rigid3 world_from_cam = Inverse(result.cam_from_world);
+  const auto residuals = [&](const Vector6d& error) {
+    const Rigid3 cam_from_world = Inverse({ExpSo3(error.tail<3>()) * world_from_cam.rotation,
+                                           world_from_cam.translation + error.head<3>()});
+    std::vector<double> rows;
+    for (const auto& match : scene.problem.points) {
+      const auto at = EvaluatePoint(
+          scene.problem.camera, cam_from_world, match.point_in_world, match.measurement);
+      for (const double r : at->r) rows.push_back(r);
+    }
+    for (const auto& match : scene.problem.lines) {
+      const auto at = EvaluateLine(scene.problem.camera,
+                                   cam_from_world,
+                                   ToOrthonormal(match.line_in_world),
+                                   match.measurement);
+      for (const double r : at->r) rows.push_back(r);
+    }
+    return Eigen::VectorXd(Eigen::Map<Eigen::VectorXd>(rows.data(), std::ssize(rows)));
+  };
+  constexpr double kStep = 1e-6;
+  Eigen::MatrixXd J(residuals(Vector6d::Zero()).size(), 6);
+  for (int i = 0; i < 6; ++i) {
+    const Vector6d step = kStep * Vector6d::Unit(i);
+    J.col(i) = (residuals(step) - residuals(-step)) / (2 * kStep);
+  }
+  const Matrix6d expected = (J.transpose() * J).inverse();
+  const Matrix6d found = PoseCovarianceInWorld(result.cam_from_world, result.information.inverse());
+  EXPECT_LT((found - expected).norm(), 1e-5 * expected.norm());
 }
 
 TEST(SolvePose, PriorStandsInForWhatMatchesLeaveOpen) {

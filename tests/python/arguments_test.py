@@ -142,6 +142,8 @@ CASES = {
     "trajectory too early": (lambda: system(frames=1).trajectory(),
                              r"trajectory: expected a system that is finished \(finish\(\)\)"),
     "causal trajectory too early": (lambda: system().causal_trajectory(), "found one that runs"),
+    "covariances too early": (lambda: system().causal_covariances(),
+                              r"causal_covariances: expected a system that is finished"),
     "keyframes too early": (lambda: system().keyframe_trajectory(), "found one that runs"),
     "main map too early": (lambda: system().main_map, "main_map: expected a system that is fin"),
     "trajectory of no map": (lambda: system(frames=1, finish=True).trajectory(7),
@@ -164,6 +166,23 @@ CASES = {
                                 "found an array of float64"),
     "option without a name": (lambda: plumbline.options(slam={1: 2}), "expected names of options"),
     "unknown option": (lambda: plumbline.options(slam={"sed": 1}), "did you mean 'slam.seed'"),
+    "seed twice": (lambda: plumbline.System(MONO, seed=1, slam={"seed": 1}),
+                   "seed: expected it once, found slam.seed as well"),
+    "mode twice": (lambda: plumbline.options(mode="live", **{"slam.mode": "live"}),
+                   "mode: expected it once, found slam.mode as well"),
+    "mode of another name": (lambda: plumbline.System(MONO, mode="fast"), "slam.mode: expected"),
+    "seed of text": (lambda: plumbline.options(seed="one"), "slam.seed: expected"),
+    # Half of a surrogate pair.
+    "option of no text": (lambda: plumbline.options(mode="a\ud800"),
+                          r"^slam.mode: expected a text that is valid Unicode, found 'a\\ud800'"),
+    "option of no name": (lambda: plumbline.System(MONO, slam={"a\ud800": 1}),
+                          r"^slam.: expected a text that is valid Unicode, found 'a\\ud800'"),
+    "observations of no name": (lambda: pose(**{"a\ud800": 1}), "points: expected"),
+    "data of no name": (lambda: plumbline.open("a\ud800"),
+                        r"path: expected a text that can be the name of a file, found 'a\\ud800'"),
+    "run of no name": (lambda: plumbline.run("a\ud800"), r"found 'a\\ud800'"),
+    "map of no name": (lambda: plumbline.load_map("a\0b"), r"found 'a\\x00b'"),
+    "file of no name": (lambda: TRAJECTORY.save("a\ud800"), r"found 'a\\ud800'"),
     "contradicting options": (lambda: plumbline.System(MONO, features={"points": False,
                                                                        "lines": False}),
                               "points"),
@@ -171,6 +190,8 @@ CASES = {
     "no data": (lambda: plumbline.open("/nothing/here"), "/nothing/here"),
     "unknown sensor": (lambda: plumbline.open(".", sensor="radar"),
                        "sensor: expected mono, stereo or rgbd, found radar"),
+    "unknown rotation": (lambda: plumbline.open(".", rotate="45"),
+                         "rotate: expected auto, none, 90, 180 or 270, found 45"),
     "unknown format": (lambda: plumbline.open(".", format="rosbag"), "format: expected euroc"),
     "unknown camera": (lambda: plumbline.Calibration.load("no_such_camera"), "no_such_camera"),
     "broken camera": (lambda: plumbline.Calibration.parse("model: [pinhole"), "calibration:1"),
@@ -188,6 +209,20 @@ CASES = {
     "principal point NaN": (lambda: plumbline.RectifiedCamera(1, 1, NAN, 0, 4, 4), "cx: expected"),
     "no pixels": (lambda: plumbline.RectifiedCamera(1, 1, 0, 0, 0, 4), "expected at least 1"),
     "negative baseline": (lambda: plumbline.RectifiedCamera(1, 1, 0, 0, 4, 4, -1), "baseline"),
+    "frames without images": (lambda: room().active.export("/none/a", "colmap", frames="all"),
+                              "^frames: expected images=PATH, the data that"),
+    "frames of no kind": (lambda: room().active.export("/none/a", "colmap", frames="some"),
+                          "^frames: expected keyframes, all or every:N, found some"),
+    "nerfstudio without images": (lambda: room().active.export("/none/a", "nerfstudio"),
+                                  "^format nerfstudio: expected images=PATH"),
+    "images of lines": (lambda: room().active.export("/none/a", "obj", images="/none"),
+                        "^images: goes with format ply, colmap and nerfstudio only"),
+    "trajectory of keyframes": (
+        lambda: room().active.export("/none/a", "colmap", images="/none", trajectory=TRAJECTORY),
+        "trajectory: goes with frames="),
+    "poses of no file": (
+        lambda: room().active.export("/none/a", "colmap", images="/none", frames="all"),
+        "frames: expected trajectory as well"),
     "no map file": (lambda: plumbline.load_map("/nothing.plb"), "/nothing.plb"),
     "merging with a mirror": (lambda: merged(np.diag([1, -1, 1, 1])), "transform: expected a rotation"),
     "merging with a stretch": (lambda: merged(np.diag([1, 2, 1, 1])), "transform: expected a rotation"),
@@ -424,6 +459,28 @@ def test_names_of_files_that_are_no_text_are_told():
         plumbline.load_map(b"/none/\xff.plb".decode(errors="surrogateescape"))
 
 
+def test_data_whose_names_are_no_text_are_read(sequence, tmp_path):
+    folder = tmp_path / b"\xff".decode(errors="surrogateescape")
+    (folder).symlink_to(sequence.resolve())
+    dataset = plumbline.open(folder)
+    assert dataset.name == folder.name and dataset.path == folder and folder.name in repr(dataset)
+    run = plumbline.run(dataset, stop=2, out=tmp_path / (folder.name + "out"))
+    assert run.out == str(tmp_path / (folder.name + "out"))
+
+
+def test_messages_name_arguments(dataset, tmp_path):
+    for i in range(2):
+        (tmp_path / f"{i}.png").write_bytes(b"")
+    with pytest.raises(plumbline.InputError, match="give camera=FILE"):
+        plumbline.open(tmp_path)
+    (tmp_path / "a--map FILE").mkdir()
+    (tmp_path / "a--map FILE" / "trajectory.txt").write_text("mine")
+    with pytest.raises(plumbline.InputError, match="a--map FILE/trajectory.txt.* another out"):
+        plumbline.run(dataset, stop=1, out=tmp_path / "a--map FILE")
+    with pytest.raises(plumbline.InputError, match="^slam.sed=1: "):
+        plumbline.options(slam={"sed": 1})
+
+
 def test_errors_have_a_family():
     assert issubclass(plumbline.InputError, (plumbline.Error,))
     assert issubclass(plumbline.InputError, ValueError)
@@ -468,9 +525,15 @@ RUNS = {
     "events told to a text": (lambda d, f, t: plumbline.run(d, on_event="print"),
                               "on_event: expected a function, found str"),
     "sensor of a Dataset": (lambda d, f, t: plumbline.run(d, sensor="mono"),
-                            "sensor, camera, format, topics: expected none beside a Dataset"),
+                            "sensor, camera, format, topics, ground_truth, rotate, max_width: expected "),
+    "ground truth that is not there": (
+        lambda d, f, t: plumbline.open(d.path, ground_truth=t / "none.txt"), "none.txt: no such file"),
     "topics of a folder": (lambda d, f, t: plumbline.open(d.path, topics=["/cam0"]),
                            "expected a bag or an MCAP file to choose topics of"),
+    "width of nothing": (lambda d, f, t: plumbline.open(d.path, max_width=0),
+                         "expected a greatest width of 1 or more, found 0"),
+    "pair that is turned": (lambda d, f, t: plumbline.run(d.path, rotate="90"),
+                            "found a stereo pair"),
     "map that is not there": (lambda d, f, t: plumbline.run(d, map=t / "none.plb"), "none.plb"),
     "results into the data": (lambda d, f, t: plumbline.run(d, out=d.path), "."),
     "frame behind the last": (lambda d, f, t: d[12], "frame: expected -12 to 11, found 12"),
@@ -487,7 +550,7 @@ RUNS = {
     "first poses of no map": (lambda d, f, t: f.system.causal_trajectory(9),
                               "map: expected the id of a map, found 9"),
     "unknown form of a map": (lambda d, f, t: f.map.export(t / "a", "xml"),
-                              "format: expected ply, obj, dxf, tum or colmap, found xml"),
+                              "format: expected ply, obj, dxf, tum, colmap or nerfstudio, found xml"),
     "map into no folder": (lambda d, f, t: f.maps.save(t / "none" / "map.plb"), "map.plb"),
     "trajectory into no folder": (lambda d, f, t: f.trajectory.save(t / "none" / "a.txt"), "a.txt"),
     "trajectory that is none": (lambda d, f, t: plumbline.Trajectory.load(d.path), "."),

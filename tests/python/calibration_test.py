@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Plumbline authors
 # SPDX-License-Identifier: Apache-2.0
 """Calibrations from files, texts and numbers; options."""
+import shutil
 import subprocess
 
 import numpy as np
@@ -47,6 +48,35 @@ def test_data_sets_tell_what_they_are(dataset, sequence):
     assert dataset[0].left.dtype == np.uint8 and dataset[0].depth is None
 
 
+def test_ground_truth_is_optional_and_can_be_replaced(sequence, tmp_path):
+    copy = tmp_path / "copy"
+    shutil.copytree(sequence, copy)
+    truth = copy / "mav0" / "state_groundtruth_estimate0" / "data.csv"
+    rows = truth.read_text()
+    truth.write_text("1,2,3\n")
+    dataset = plumbline.open(copy)
+    assert dataset.ground_truth is None
+    assert dataset.ground_truth_fault.startswith(f"{truth}:1: expected at least 8 columns")
+    own = tmp_path / "own.csv"
+    own.write_text(rows + rows.splitlines()[1] + "\n")
+    given = plumbline.open(copy, ground_truth=own)
+    assert given.ground_truth_fault is None and len(given.ground_truth) > 12
+    assert given.notes == [f"{own}:{len(rows.splitlines()) + 1}: 1 row goes back in time and is "
+                           "left out"]
+    assert plumbline.open(copy, ground_truth="none").ground_truth_fault is None
+
+
+def test_images_are_turned_and_reduced_with_their_camera(dataset, sequence):
+    width, height = dataset.calibration.width, dataset.calibration.height
+    half = plumbline.open(sequence, max_width=width // 2)
+    assert half[0].left.shape == half[0].right.shape == (round(height / 2), width // 2)
+    assert half.calibration.width == width // 2
+    mono = plumbline.open(sequence, sensor="mono", rotate="180")
+    stored = plumbline.open(sequence, sensor="mono")
+    assert np.array_equal(mono[1].left, np.rot90(stored[1].left, 2))
+    assert any("turned by 180 degrees" in note for note in mono.notes)
+
+
 def test_options_in_groups_and_with_dots():
     defaults = plumbline.options()
     assert defaults["slam"]["mode"] == "lockstep"
@@ -74,7 +104,7 @@ def test_messages_are_those_of_the_program(program, sequence):
         with pytest.raises(plumbline.InputError) as caught:
             plumbline.run(sequence, **options)
         assert done.returncode == 2
-        assert done.stderr == f"plumbline: {caught.value}\n"
+        assert done.stderr == f"plumbline: --set {caught.value}\n"
     done = subprocess.run([program, "run", sequence / "nothing"], text=True, capture_output=True)
     with pytest.raises(plumbline.InputError) as caught:
         plumbline.run(sequence / "nothing")

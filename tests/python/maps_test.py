@@ -137,11 +137,102 @@ def test_no_export_replaces_the_map_file(finished, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path.parent)
     for one in (atlas[0], atlas.active, next(iter(atlas))):
         for path in (file, tmp_path / "link.plb"):
-            with pytest.raises(plumbline.InputError, match="expected another file than the one"):
+            with pytest.raises(plumbline.InputError, match="expected another file than .*, which is read"):
                 one.export(path, "ply")
     assert file.read_bytes() == before
     atlas.save(file)
     assert file.read_bytes() == before
+
+
+# What a user may have at a place that is named by a slip.
+VICTIMS = {
+    "camera.yaml": "model: pinhole\nsize: [160, 120]\n",
+    "README.md": "# My data\n",
+    "summary.json": '{\n  "program": "plumbline"\n}\n',
+    "groundtruth.txt": "# timestamp tx ty tz qx qy qz qw\n1.5 0 0 0 0 0 0 1\n",
+}
+# Everything that writes a file, and what it may replace.
+WRITERS = {
+    "save of an atlas": (lambda run, path: run.maps.save(path), "a map"),
+    "save of a trajectory": (lambda run, path: run.trajectory.save(path), "a trajectory"),
+    "ply": (lambda run, path: run.map.export(path, "ply"), "a PLY file"),
+    "obj": (lambda run, path: run.map.export(path, "obj"), "lines"),
+    "dxf": (lambda run, path: run.map.export(path, "dxf"), "a DXF file"),
+    "tum": (lambda run, path: run.map.export(path, "tum"), "a trajectory"),
+}
+
+
+@pytest.mark.parametrize("writer", WRITERS)
+def test_nothing_of_a_users_is_replaced(writer, finished, tmp_path):
+    write, kind = WRITERS[writer]
+    for name, text in VICTIMS.items():
+        path = tmp_path / name
+        path.write_text(text)
+        with pytest.raises(plumbline.InputError, match=f"path .*{name}: expected {kind}.* to replace,"):
+            write(finished, path)
+        assert path.read_text() == text
+    path = tmp_path / "own"
+    for _ in range(2):  # a file of its kind is replaced
+        write(finished, path)
+    assert path.stat().st_size > 100
+
+
+@pytest.mark.parametrize("writer", WRITERS)
+def test_no_result_of_a_run_is_replaced(writer, dataset, finished, tmp_path):
+    plumbline.run(dataset, stop=2, out=tmp_path)
+    for name in ("map.plb", "trajectory.txt", "map.ply", "lines.obj", "lines.dxf", "summary.json"):
+        before = (tmp_path / name).read_bytes()
+        with pytest.raises(plumbline.InputError, match="expected another name"):
+            WRITERS[writer][0](finished, tmp_path / name)
+        assert (tmp_path / name).read_bytes() == before
+
+
+@pytest.mark.parametrize("form", ("colmap", "nerfstudio"))
+def test_folders_take_the_place_of_nothing(form, finished, tmp_path):
+    (tmp_path / "notes").write_text("mine")
+    for path in (tmp_path, tmp_path / "notes"):
+        with pytest.raises(plumbline.InputError, match="expected a"):
+            finished.map.export(path, form, images=finished.dataset)
+    assert (tmp_path / "notes").read_text() == "mine"
+
+
+def files_of(folder):
+    return {path.relative_to(folder): path.read_bytes()
+            for path in folder.rglob("*") if path.is_file()}
+
+
+def test_maps_are_exported_with_images(program, sequence, dataset, tmp_path):
+    run = plumbline.run(dataset, out=tmp_path / "out")
+    file = tmp_path / "out" / "map.plb"
+    for form, frames, images in (("nerfstudio", "keyframes", 0), ("nerfstudio", "all", 12),
+                                 ("colmap", "all", 12), ("colmap", "every:4", 0)):
+        ways = {
+            "objects": {"images": dataset, "trajectory": plumbline.Trajectory.load(
+                tmp_path / "out" / "trajectory.txt")},
+            "paths": {"images": sequence, "trajectory": tmp_path / "out" / "trajectory.txt"},
+        }
+        subprocess.run([program, "map", "export", file, "--to", form, "--images", sequence,
+                        "--frames", frames, "--out", tmp_path / form / frames / "program"],
+                       check=True, stdout=subprocess.DEVNULL)
+        expected = files_of(tmp_path / form / frames / "program")
+        assert images in (0, sum(path.suffix == ".png" for path in expected))
+        for name, way in ways.items():
+            if frames == "keyframes":
+                del way["trajectory"]
+            run.map.export(tmp_path / form / frames / name, form, frames=frames, **way)
+            assert files_of(tmp_path / form / frames / name) == expected
+        # Beside a map that was read lies the trajectory.
+        plumbline.load_map(file)[0].export(tmp_path / form / frames / "read", form,
+                                           images=dataset, frames=frames)
+        assert files_of(tmp_path / form / frames / "read") == expected
+    run.map.export(tmp_path / "of the run", "nerfstudio", images=dataset, frames="all",
+                   trajectory=run.trajectory)  # it has more decimals than its file
+    assert len(files_of(tmp_path / "of the run")) == 14
+    run.map.export(tmp_path / "grey.ply", "ply")
+    run.map.export(tmp_path / "seen.ply", "ply", images=dataset)
+    grey, seen = ((tmp_path / name).read_text() for name in ("grey.ply", "seen.ply"))
+    assert "128 128 128" in grey and len(grey.splitlines()) == len(seen.splitlines())
+    assert len({line.rpartition(" ")[2] for line in seen.splitlines()[12:]}) > 20
 
 
 def test_maps_are_exported(program, finished, tmp_path):
@@ -161,7 +252,7 @@ def test_maps_are_exported(program, finished, tmp_path):
         other = tmp_path / "python" / path.relative_to(tmp_path / "program")
         assert other.read_bytes() == path.read_bytes(), other
     with pytest.raises(plumbline.InputError,
-                       match="format: expected ply, obj, dxf, tum or colmap, found xml"):
+                       match="format: expected ply, obj, dxf, tum, colmap or nerfstudio, found xml"):
         finished.map.export(tmp_path / "a", "xml")
 
 

@@ -14,7 +14,7 @@ import plumbline
 from plumbline import recorded
 
 # Files of a run that have nothing to do with the clock.
-SAME = ["trajectory.txt", "trajectory_causal.txt", "keyframes.txt", "frames.csv", "map.plb",
+SAME = ["trajectory.txt", "trajectory_causal.txt", "trajectory_covariance.txt", "keyframes.txt", "frames.csv", "map.plb",
         "options.yaml", "lines.obj", "lines.dxf", "map.ply"]
 
 
@@ -49,6 +49,25 @@ def test_frames_from_anywhere_give_the_same_poses(dataset, finished):
     assert system.results() == []
 
 
+def test_covariances_are_those_of_the_frames_and_of_the_file(dataset, tmp_path):
+    run = plumbline.run(dataset, out=tmp_path / "out")
+    stamps, covariances = run.covariances
+    assert stamps.dtype == np.int64 and covariances.shape == (len(stamps), 6, 6)
+    # The first frame starts the map: its pose is chosen.
+    assert run.results[0].covariance is None
+    known = [result for result in run.results if result.covariance is not None]
+    assert len(known) == len(run.results) - 1
+    np.testing.assert_array_equal(stamps, [result.stamp_ns for result in known])
+    np.testing.assert_array_equal(covariances, [result.covariance for result in known])
+    for covariance in covariances:
+        np.testing.assert_array_equal(covariance, covariance.T)
+        assert np.linalg.eigvalsh(covariance)[0] > 0
+    rows = np.loadtxt(tmp_path / "out" / "trajectory_covariance.txt")
+    np.testing.assert_allclose(rows[:, 1:].reshape(-1, 6, 6), covariances, rtol=1e-11)
+    with pytest.raises(plumbline.InputError, match="map: expected the id of a map, found 7"):
+        run.system.causal_covariances(7)
+
+
 def test_each_result_is_told_once(dataset):
     system = plumbline.System(dataset.calibration)
     system.feed(dataset[0])
@@ -72,8 +91,30 @@ def test_a_map_has_the_same_bytes_whatever_the_data_are_called(sequence, finishe
     assert (tmp_path / "map.plb").read_bytes() == (tmp_path / "other.plb").read_bytes()
 
 
+def test_seed_and_mode_are_plain_arguments(dataset):
+    run = plumbline.run(dataset, stop=2, seed=7, mode="inline")
+    for options in (run.system.options, plumbline.options(seed=7, mode="inline"),
+                    plumbline.System(dataset.calibration, 7, "inline").options):
+        assert options["slam"]["seed"] == 7 and options["slam"]["mode"] == "inline"
+    assert plumbline.options(seed=np.int64(3))["slam"]["seed"] == 3
+
+
+def test_what_comes_out_tells_what_it_is(dataset, finished):
+    assert repr(finished).endswith("12 of 12 frames tracked>")
+    assert repr(finished.trajectory).startswith("<Trajectory of 12 poses, ")
+    assert repr(plumbline.Trajectory([], np.zeros((0, 3)), np.zeros((0, 4)))) == \
+        "<Trajectory of 0 poses>"
+    assert repr(finished.system) == "<System, stereo, finished>"
+    assert repr(plumbline.System(dataset.calibration)) == "<System, stereo, runs>"
+    frame = dataset[0]
+    rows, columns = frame.left.shape
+    assert repr(frame).endswith(f" s: pair of {columns} x {rows}>")
+    world = plumbline.Synth("room", frames=2, scale=0.1)
+    assert repr(world) == "<Synth room: 2 frames>"
+
+
 def test_a_live_run_follows_the_clock(dataset):
-    run = plumbline.run(dataset, stop=4, slam={"mode": "live"})
+    run = plumbline.run(dataset, stop=4, mode="live")
     assert len(run.results) == 4
 
 

@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The Plumbline authors
 # SPDX-License-Identifier: Apache-2.0
 """Threads, and memory."""
+import os
 import pathlib
+import signal
 import threading
 import time
 
@@ -113,3 +115,26 @@ def test_arrays_leave_nothing_behind(finished, dataset):
     before = resident()
     use(60)
     assert resident() < 1.05 * before
+
+
+def test_a_forked_child_makes_systems_of_its_own(dataset):
+    parent = plumbline.System(dataset.calibration)
+    parent.process(dataset[0])
+    frames = [dataset[0], dataset[1]]
+    child = os.fork()
+    if child == 0:
+        signal.alarm(60)
+        own = plumbline.System(dataset.calibration)
+        own.process(frames[0])
+        tracked = own.process(frames[1]).status == "tracked"
+        os._exit(0 if tracked else 1)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+    assert parent.process(frames[1]).status == "tracked"
+    # With the mode inline there are no threads that a child could lack.
+    inline = plumbline.System(dataset.calibration, mode="inline")
+    inline.process(frames[0])
+    child = os.fork()
+    if child == 0:
+        signal.alarm(60)
+        os._exit(0 if inline.process(frames[1]).status == "tracked" else 1)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0

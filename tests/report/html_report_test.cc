@@ -336,6 +336,44 @@ TEST(HtmlReport, SaysThatThereIsNoGroundTruth) {
   EXPECT_EQ(json["scene"]["up"], nlohmann::json({0, -1, 0}));
 }
 
+// Ground truth scales the map of one camera, so that its lengths are metres.
+TEST(HtmlReport, LengthsOfOneCameraAreMetresOnlyBesideGroundTruth) {
+  const PosterRun run;
+  const auto metric = [&](SensorKind sensor, bool with_truth) -> bool {
+    DatasetInfo info = PosterDataset(6, with_truth).info();
+    info.sensor = sensor;
+    const auto json = DataOf(FormatHtmlReport(run.system(), PosterDataset(info), ContextOf(run)));
+    return json["scene"]["maps"][0]["metric"];
+  };
+  EXPECT_TRUE(metric(SensorKind::kStereo, false));
+  EXPECT_TRUE(metric(SensorKind::kRgbd, false));
+  EXPECT_FALSE(metric(SensorKind::kMono, false));
+  EXPECT_TRUE(metric(SensorKind::kMono, true));
+}
+
+// What the pages write about lengths, by the functions that they share.
+TEST(HtmlReport, WritesUnitsWhereLengthsAreNoMetres) {
+  if (std::system("node --version > /dev/null 2>&1") != 0) {  // NOLINT(concurrency-mt-unsafe)
+    GTEST_SKIP() << "node is not installed";
+  }
+  const PosterRun run;
+  const std::string page = FormatHtmlReport(run.system(), PosterDataset(6), ContextOf(run));
+  const std::size_t begin = page.find("// A number with `count` significant digits");
+  const std::size_t end = page.find("// A value that tells its listeners", begin);
+  ASSERT_NE(end, std::string::npos);
+  const ScratchFolder folder;
+  const auto file = folder.Write(
+      "lengths.js",
+      page.substr(begin, end - begin) +
+          "const found = [lengthInMap(0.2, true), lengthInMap(0.02, true), lengthInMap(0.2, false),"
+          " lengthInMap(0.02, false)].join('; ');\n"
+          "process.exit(found === '0.200 m; 20.0 mm; 0.200 units; 0.0200 units' ? 0 : 1);\n");
+  const std::string command = "node '" + file.string() + "'";
+  EXPECT_EQ(std::system(command.c_str()), 0);  // NOLINT(concurrency-mt-unsafe)
+  // No label has a metre of its own.
+  for (const char* label : {"[m]`", " m.`", "+ \" m\""}) EXPECT_THAT(page, Not(HasSubstr(label)));
+}
+
 TEST(HtmlReport, IsMadeWithoutAnyFrame) {
   const System system(MovingPoster::MakeCalibration(), {});
   const auto json = DataOf(FormatHtmlReport(system, PosterDataset(6), {}));

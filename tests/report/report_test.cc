@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/map_io.h"
+#include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/overlay.h"
 #include "plumbline/report/run_files.h"
 #include "plumbline/report/summary.h"
@@ -13,9 +14,13 @@
 #include <chrono>
 #include <optional>
 #include <set>
+#include <sstream>
+#include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
+#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -253,10 +258,10 @@ class AwayAndBack {
     options.loop.enabled = false;  // or the two ends, which share some corners, would be joined
     return options;
   }
-  // The poster from this frame of it on, or nothing to be seen.
+  // The poster from this frame of it on, or another place.
   void Show(std::optional<int> first, int frames) {
     for (int i = 0; i < frames; ++i) {
-      SensorFrame frame = first ? poster_.Frame(*first + i) : MovingPoster::BlindFrame(0);
+      SensorFrame frame = first ? poster_.Frame(*first + i) : MovingPoster::StrangeFrame(0);
       frame.stamp_ns = MovingPoster::StampNs(shown_++);
       system_.Process(std::move(frame));
     }
@@ -331,6 +336,7 @@ TEST(RunFiles, AreAllThereAndComplete) {
   for (const char* name : {"trajectory.txt",
                            "trajectory_causal.txt",
                            "keyframes.txt",
+                           "trajectory_covariance.txt",
                            "frames.csv",
                            "timing.csv",
                            "timing.json",
@@ -346,6 +352,33 @@ TEST(RunFiles, AreAllThereAndComplete) {
   EXPECT_EQ(Rows(Contents(folder / "timing.csv")), 7U);
   EXPECT_EQ(Contents(folder / "trajectory.txt").substr(0, 12), "1.000000000 ");
   for (const std::string& name : names) EXPECT_EQ(name.find("tmp"), std::string::npos) << name;
+}
+
+// One row for each causal pose but the first, which starts the map; also after a run backwards.
+TEST(RunFiles, CovariancesHaveTheStampsOfTheCausalPoses) {
+  const PosterRun run;
+  for (const std::optional<std::int64_t> mirror_ns :
+       {std::optional<std::int64_t>(), std::optional<std::int64_t>(5'000'000'000)}) {
+    const ScratchFolder folder;
+    for (const RunFile& file : PoseFiles(run.system(), mirror_ns)) file.write(folder / file.name);
+    std::vector<std::string> stamps;
+    for (const StampedPose& pose : ReadTrajectory(folder / "trajectory_causal.txt").poses) {
+      stamps.push_back(FormatStamp(pose.stamp_ns));
+    }
+    stamps.erase(mirror_ns ? stamps.end() - 1 : stamps.begin());
+    std::vector<std::string> found;
+    std::istringstream text(Contents(folder / "trajectory_covariance.txt"));
+    for (std::string row; std::getline(text, row);) {
+      std::istringstream fields(row);
+      fields >> found.emplace_back();
+      Matrix6d covariance;
+      for (int k = 0; k < 36; ++k) fields >> covariance(k / 6, k % 6);
+      EXPECT_TRUE(fields) << row;
+      EXPECT_EQ(covariance, Matrix6d(covariance.transpose()));
+      EXPECT_EQ(Eigen::LLT<Matrix6d>(covariance).info(), Eigen::Success);
+    }
+    EXPECT_EQ(found, stamps);
+  }
 }
 
 TEST(RunFiles, AreThereWithoutAnyPose) {
@@ -390,11 +423,12 @@ TEST(RunFiles, SayWhichFileCannotBeWritten) {
 TEST(RunFiles, ThoseWorthMostForTheirSizeComeFirst) {
   const PosterRun run;
   const std::vector<RunFile> files = PoseFiles(run.system());
-  ASSERT_EQ(files.size(), 4U);
+  ASSERT_EQ(files.size(), 5U);
   EXPECT_EQ(files[0].name, "trajectory.txt");
   EXPECT_EQ(files[1].name, "trajectory_causal.txt");
   EXPECT_EQ(files[2].name, "keyframes.txt");
   EXPECT_EQ(files[3].name, "frames.csv");
+  EXPECT_EQ(files[4].name, "trajectory_covariance.txt");
 }
 
 TEST(Overlay, IsWrittenForTheLastFrame) {

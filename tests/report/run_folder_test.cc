@@ -283,5 +283,34 @@ TEST(CheckFileApart, RefusesToReplaceWhatIsRead) {
   EXPECT_EQ(message(scratch / "database"), "no error");
 }
 
+// Of a run that was killed, or ran out of memory, before its first frame.
+TEST(RunFolder, ForgetsARunThatHadNotGotToAFrame) {
+  const ScratchFolder scratch;
+  const fs::path out = scratch / "out";
+  WriteRun(out, {"trajectory.txt"}, "old");
+  {
+    RunFolder killed(out);
+    killed.Keep();
+    killed.Write(Text("options.yaml", "slam: {}"));
+    killed.Write(Text("trajectory_causal.txt", ""));
+    killed.Write(Text("keyframes.txt", ""));
+    killed.Write(Text("frames.csv", "frame,timestamp\n"));
+  }
+  ASSERT_TRUE(fs::exists(out / ".part/frames.csv"));
+  {
+    const RunFolder next(out);
+    EXPECT_THAT(next.notes(), ElementsAre());
+  }
+  EXPECT_EQ(FilesOf(out), (std::set<std::string>{".plumbline-run", "trajectory.txt"}));
+  // One frame without a pose is something.
+  {
+    RunFolder killed(out);
+    killed.Keep();
+    killed.Write(Text("frames.csv", "frame,timestamp\n0,1.0\n"));
+  }
+  const RunFolder next(out);
+  EXPECT_THAT(next.notes(), ElementsAre(HasSubstr("interrupted-1")));
+}
+
 }  // namespace
 }  // namespace plumbline

@@ -55,6 +55,12 @@ def test_a_pair(node, world, bag):
     for message, stamp in zip(heard.odometry, stamps):
         assert (message.header.frame_id, message.child_frame_id) == ("odom", "base_link")
         np.testing.assert_allclose(pose_matrix(message.pose.pose), base[stamp], atol=1e-9)
+    # How well each pose is known, but for that which starts the map.
+    covariances = [np.reshape(m.pose.covariance, (6, 6)) for m in heard.odometry]
+    assert not covariances[0].any()
+    for covariance in covariances[1:]:
+        np.testing.assert_array_equal(covariance, covariance.T)
+        assert np.linalg.eigvalsh(covariance)[0] > 0
     speeds = [np.linalg.norm([m.twist.twist.linear.x, m.twist.twist.linear.y,
                               m.twist.twist.linear.z]) for m in heard.odometry[1:]]
     moved = np.linalg.norm(np.diff(world.synth.ground_truth.positions, axis=0), axis=1)

@@ -32,6 +32,36 @@ TEST(OdometryFrame, IsTheMapUntilSomethingIsCorrected) {
   }
 }
 
+// Against samples of the camera's error, put through the poses that are published.
+TEST(OdometryFrame, CovarianceOfTheBaseFollowsFromThatOfTheCamera) {
+  Vector6d mounting, place, correction;
+  mounting << 0.3, -1.2, 0.5, 0.4, -0.1, 0.8;
+  place << -0.7, 0.2, 1.1, 3, -2, 1;
+  correction << 0.1, 0.2, -0.6, 5, 1, -2;
+  const Rigid3 base_from_camera = ExpSe3(mounting), world_from_camera = ExpSe3(place);
+  BasePose pose;
+  pose.map_from_base = base_from_camera * world_from_camera * Inverse(base_from_camera);
+  const Rigid3 odom_from_map = ExpSe3(correction);
+  pose.odom_from_base = odom_from_map * pose.map_from_base;
+  Matrix6d J;  // of the base's [x, y, z, rotation] by that of the camera
+  constexpr double kStep = 1e-6;
+  for (int i = 0; i < 6; ++i) {
+    const Vector6d step = kStep * Vector6d::Unit(i);
+    const Rigid3 moved_camera{ExpSo3(step.tail<3>()) * world_from_camera.rotation,
+                              world_from_camera.translation + step.head<3>()};
+    const Rigid3 moved =
+        odom_from_map * base_from_camera * moved_camera * Inverse(base_from_camera);
+    J.col(i) << (moved.translation - pose.odom_from_base.translation) / kStep,
+        LogSo3(moved.rotation * pose.odom_from_base.rotation.conjugate()) / kStep;
+  }
+  const Matrix6d root = Matrix6d::Random();
+  const Matrix6d covariance = root * root.transpose();
+  const Matrix6d expected = J * covariance * J.transpose();
+  const Matrix6d found = BaseCovariance(pose, base_from_camera, world_from_camera, covariance);
+  EXPECT_LT((found - expected).norm(), 1e-4 * expected.norm());
+  EXPECT_EQ(found, found.transpose());
+}
+
 TEST(OdometryFrame, GoesOnWhereTheMapJumps) {
   // The correction shows in the frame that it is told with, or in the next one.
   for (const int shows : {5, 6}) {

@@ -35,13 +35,13 @@ struct Recording {
   int frames = 0;
 };
 
-// A stereo camera before a poster; from frame 30 on it sees nothing for a while, then another part
-// of the poster.
+// A stereo camera before a poster; from frame 30 on it sees another place for a while, then another
+// part of the poster.
 Recording StereoWithALoss() {
   Recording recording;
   recording.frames = 56;
   recording.frame = [poster = std::make_shared<MovingPoster>()](int i) {
-    return i >= 30 && i < 36 ? MovingPoster::BlindFrame(i) : poster->Frame(i);
+    return i >= 30 && i < 36 ? MovingPoster::StrangeFrame(i) : poster->Frame(i);
   };
   return recording;
 }
@@ -61,17 +61,17 @@ Recording RgbdPoster() {
   return recording;
 }
 
-// One camera that goes sideways before bands of the poster at two distances. It sees nothing for
-// three frames, after which there is a second map.
+// One camera that goes sideways before bands of the poster at two distances. It sees another
+// place for three frames, after which there is a second map.
 Recording MonoBands() {
   Recording recording;
   recording.calibration.right.reset();
   recording.frames = 46;
   recording.frame = [poster = std::make_shared<MovingPoster>()](int i) {
     if (i >= 26 && i < 29) {
-      SensorFrame blind = MovingPoster::BlindFrame(i);
-      blind.right.reset();
-      return blind;
+      SensorFrame strange = MovingPoster::StrangeFrame(i);
+      strange.right.reset();
+      return strange;
     }
     SensorFrame frame = poster->Frame(i);
     frame.right.reset();
@@ -216,12 +216,13 @@ TEST(Checkpoint, OfEveryStartOfAMapGoesOnAsIfNothingHadBeen) {
   }
 }
 
-// A camera that sees nothing until a second map begins, which is then known to show the first.
+// A camera that sees another place until a second map begins, which is then known to show the
+// first.
 Recording StereoWithAJoin() {
   Recording recording;
   recording.frames = 58;
   recording.frame = [poster = std::make_shared<MovingPoster>()](int i) {
-    return i >= 20 && i < 40 ? MovingPoster::BlindFrame(i) : poster->Frame(i);
+    return i >= 20 && i < 40 ? MovingPoster::StrangeFrame(i) : poster->Frame(i);
   };
   return recording;
 }

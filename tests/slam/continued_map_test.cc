@@ -149,7 +149,7 @@ TEST(ContinuedMap, ThatDoesNotShowTheCamerasPlaceGivesWayToANewOne) {
   System system(MovingPoster::MakeCalibration(), options);
   system.Continue(MappedPoster(), false);
   const MovingPoster poster;
-  for (int i = 0; i < 8; ++i) system.Process(MovingPoster::BlindFrame(i));
+  for (int i = 0; i < 8; ++i) system.Process(MovingPoster::StrangeFrame(i));
   for (int i = 8; i < 14; ++i) system.Process(poster.Frame(i));
   system.Finish();
   ASSERT_EQ(system.maps().size(), 2U);
@@ -174,7 +174,7 @@ TEST(ContinuedMap, ANewMapGetsAnIdThatNoJoinedOneHad) {
   System system(MovingPoster::MakeCalibration(), options);
   system.Continue(saved, false);
   const MovingPoster poster;
-  for (int i = 0; i < 8; ++i) system.Process(MovingPoster::BlindFrame(i));
+  for (int i = 0; i < 8; ++i) system.Process(MovingPoster::StrangeFrame(i));
   for (int i = 8; i < 14; ++i) system.Process(poster.Frame(i));
   system.Finish();
   EXPECT_EQ(system.frames().back().map, MapId{2});

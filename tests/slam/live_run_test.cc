@@ -239,16 +239,16 @@ TEST(LiveRun, ShedsNothingAnyMoreWhenTheLoadIsGone) {
   ExpectWholeTrajectory(run);
 }
 
-// The camera sees nothing from frame 30 on, for some frames.
-SimulatedRun::Source BlindFor(const MovingPoster& poster, int frames) {
+// The camera sees another place from frame 30 on, for some frames.
+SimulatedRun::Source AwayFor(const MovingPoster& poster, int frames) {
   return [&poster, frames](int i) {
-    return i >= 30 && i < 30 + frames ? MovingPoster::BlindFrame(i) : poster.Frame(i);
+    return i >= 30 && i < 30 + frames ? MovingPoster::StrangeFrame(i) : poster.Frame(i);
   };
 }
 
 TEST(LiveRun, ANewMapWaitsAMomentForTheOldOne) {
   const MovingPoster poster;
-  SimulatedRun run(Constant(20, 60), BlindFor(poster, 15));  // more than tracking.new_map_after
+  SimulatedRun run(Constant(20, 60), AwayFor(poster, 15));  // more than tracking.new_map_after
   run.Play(60);
   run.Finish();
   EXPECT_EQ(run.CountStatus(FrameStatus::kLost), 15);
@@ -258,7 +258,7 @@ TEST(LiveRun, ANewMapWaitsAMomentForTheOldOne) {
 // And becomes part of the old one as soon as it is seen to show the same place.
 TEST(LiveRun, ANewMapStartsAfterThat) {
   const MovingPoster poster;
-  SimulatedRun run(Constant(20, 60), BlindFor(poster, 30));
+  SimulatedRun run(Constant(20, 60), AwayFor(poster, 30));
   run.Play(80);
   run.Finish();
   const auto in_new_map = [](const FrameRecord& frame) { return frame.map == MapId{1}; };

@@ -13,7 +13,7 @@ namespace map_return_test {
 
 constexpr int kLeftEnd = 0,
               kRightEnd = 118;  // first frames of stretches that share next to nothing
-constexpr int kStretch = 12, kBlind = 14, kShortlyBlind = 4;  // frames
+constexpr int kStretch = 12, kAway = 14, kShortlyAway = 4;  // frames
 
 SlamOptions InMode(RunMode mode) {
   SlamOptions options;
@@ -34,8 +34,8 @@ class Show {
     for (int i = 0; i < kStretch; ++i) Process(poster_.Frame(first + i));
   }
   void One(int frame) { Process(poster_.Frame(frame)); }
-  void Black(int frames) {
-    for (int i = 0; i < frames; ++i) Process(MovingPoster::BlindFrame(0));
+  void Elsewhere(int frames) {
+    for (int i = 0; i < frames; ++i) Process(MovingPoster::StrangeFrame(0));
   }
   // Like Stretch; before each frame, another system goes on from what this one saves.
   void StretchWithPauses(int first) {
@@ -46,12 +46,12 @@ class Show {
       Process(poster_.Frame(first + i));
     }
   }
-  // Left end, long black, right end, a moment of black, left end again.
+  // Left end, long elsewhere, right end, a moment elsewhere, left end again.
   void AwayAndBack() {
     Stretch(kLeftEnd);
-    Black(kBlind);
+    Elsewhere(kAway);
     Stretch(kRightEnd);
-    Black(kShortlyBlind);
+    Elsewhere(kShortlyAway);
     Stretch(kLeftEnd);
   }
 
@@ -110,13 +110,13 @@ TEST(MapReturn, AnAnswerIsOldWhereTheCameraWasTrackedSince) {
     options.slam.lag = 2;
     Show show(options);
     show.Stretch(kLeftEnd);
-    show.Black(kBlind);
+    show.Elsewhere(kAway);
     show.Stretch(kRightEnd);
     show.One(kLeftEnd + 4);
     EXPECT_EQ(show.Newest().status, FrameStatus::kLost);
     show.One(kRightEnd + kStretch - 1);
     EXPECT_EQ(show.Newest().status, FrameStatus::kTracked);
-    show.Black(1);
+    show.Elsewhere(1);
     EXPECT_EQ(show.Newest().status, FrameStatus::kLost);
     show.One(kRightEnd + kStretch - 1);
     EXPECT_EQ(show.Newest().status, FrameStatus::kTracked);
@@ -129,7 +129,7 @@ TEST(MapReturn, AnAnswerIsOldWhereTheCameraWasTrackedSince) {
 TEST(MapReturn, ARunThatChangesNothingIsFoundInAnyMapOfAnAtlas) {
   Show show(RunMode::kInline);
   show.Stretch(kLeftEnd);
-  show.Black(kBlind);
+  show.Elsewhere(kAway);
   show.Stretch(kRightEnd);
   show.system().Finish();
   SavedAtlas saved{show.system().atlas(), show.system().Context()};
@@ -152,9 +152,9 @@ TEST(MapReturn, ARunMayBePausedAtAnyFrame) {
   Show show(RunMode::kInline), paused(RunMode::kInline);
   show.AwayAndBack();
   paused.Stretch(kLeftEnd);
-  paused.Black(kBlind);
+  paused.Elsewhere(kAway);
   paused.Stretch(kRightEnd);
-  paused.Black(kShortlyBlind);
+  paused.Elsewhere(kShortlyAway);
   paused.StretchWithPauses(kLeftEnd);
   show.system().Finish();
   paused.system().Finish();

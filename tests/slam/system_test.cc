@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <vector>
 
+#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 namespace plumbline {
@@ -47,6 +48,32 @@ TEST(System, FollowsTheCamera) {
   const Trajectory keyframes = system->KeyFrameTrajectory(*map);
   EXPECT_EQ(keyframes.front().stamp_ns, MovingPoster::StampNs(0));
   system->maps().rbegin()->second.CheckInvariants();
+}
+
+TEST(System, KnowsTheCovarianceOfEachPoseButThatWhichStartsTheMap) {
+  constexpr int kFrames = 10;
+  const auto system = RunPoster(kFrames);
+  const std::vector<StampedCovariance> covariances = system->CausalCovariances(MapId{0});
+  ASSERT_EQ(covariances.size(), kFrames - 1U);
+  EXPECT_FALSE(system->frames()[0].causal_covariance);
+  const Trajectory poses = system->CausalTrajectory(MapId{0});
+  double chi2 = 0;
+  for (std::size_t i = 0; i < covariances.size(); ++i) {
+    EXPECT_EQ(covariances[i].stamp_ns, MovingPoster::StampNs(static_cast<int>(i) + 1));
+    const Matrix6d& covariance = covariances[i].covariance;
+    EXPECT_EQ(covariance, Matrix6d(covariance.transpose()));
+    const Eigen::LLT<Matrix6d> factor(covariance);
+    ASSERT_EQ(factor.info(), Eigen::Success);
+    // The poster is seen from 0.01 to 100 mm and as many mrad off, whatever the noise.
+    EXPECT_GT(covariance.diagonal().minCoeff(), 1e-10);
+    EXPECT_LT(covariance.diagonal().maxCoeff(), 1e-2);
+    Vector6d error;
+    error << poses[i + 1].world_from_camera.translation -
+                 Eigen::Vector3d(MovingPoster::kStep * static_cast<double>(i + 1), 0, 0),
+        LogSo3(poses[i + 1].world_from_camera.rotation);
+    chi2 += error.dot(factor.solve(error)) / (kFrames - 1);
+  }
+  EXPECT_LT(chi2, 60);  // ten times that of six degrees of freedom
 }
 
 // Every keyframe has to be able to make landmarks of its lines.
@@ -117,11 +144,68 @@ TEST(System, LostFramesSayWhyAndHaveNoPose) {
   for (int i = 0; i < 3; ++i) system.Process(poster.Frame(i));
   const FrameRecord& lost = system.Process(MovingPoster::BlindFrame(3));
   EXPECT_EQ(lost.status, FrameStatus::kLost);
-  EXPECT_EQ(lost.reason, "too_few_matches");
+  EXPECT_EQ(lost.reason, "too_few_features");
   EXPECT_FALSE(lost.causal_world_from_camera);
   EXPECT_EQ(system.Process(poster.Frame(4)).status, FrameStatus::kTracked);
   system.Finish();
   EXPECT_EQ(system.CausalTrajectory(MapId{0}).size(), 4U);
+}
+
+// Frames that show nothing say nothing against the map: when the camera sees again, it is looked
+// for in the map, however many there were.
+TEST(System, ACoveredLensDoesNotEndAMap) {
+  const MovingPoster poster;
+  for (const auto& covered : {MovingPoster::BlindFrame, MovingPoster::NoiseFrame}) {
+    SlamOptions options;
+    options.loop.enabled = false;  // or another map would become part of this one
+    System system(MovingPoster::MakeCalibration(), options);
+    for (int i = 0; i < 10; ++i) system.Process(poster.Frame(i));
+    for (int i = 10; i < 40; ++i) {
+      EXPECT_EQ(system.Process(covered(i)).reason, "too_few_features") << i;
+    }
+    int tracked = 0;
+    for (int i = 40; i < 52; ++i) {
+      tracked += system.Process(poster.Frame(i)).status == FrameStatus::kTracked;
+    }
+    EXPECT_GE(tracked, 9);
+    system.Finish();
+    ASSERT_EQ(system.maps().size(), 1U);
+    const Trajectory poses = system.FinalTrajectory(MapId{0});
+    const Eigen::Vector3d expected(51 * MovingPoster::kStep, 0, 0);
+    EXPECT_LT((poses.back().world_from_camera.translation - expected).norm(), 0.02);
+  }
+}
+
+// Longer than relocalization.patience: another map may begin, but the old one is asked first.
+TEST(System, AfterALongNightTheOldMapIsAskedFirst) {
+  const MovingPoster poster;
+  const auto upside_down = [&](int i) {
+    SensorFrame frame = poster.Frame(i);
+    for (GrayImage* image : {&frame.left, &*frame.right}) {
+      for (int y = 0; y < image->height() / 2; ++y) {
+        std::swap_ranges(
+            image->row(y), image->row(y) + image->width(), image->row(image->height() - 1 - y));
+      }
+    }
+    return frame;
+  };
+  for (const bool elsewhere : {false, true}) {
+    SlamOptions options;
+    options.loop.enabled = false;
+    options.relocalization.patience = 6;
+    System system(MovingPoster::MakeCalibration(), options);
+    for (int i = 0; i < 10; ++i) system.Process(poster.Frame(i));
+    for (int i = 10; i < 40; ++i) system.Process(MovingPoster::BlindFrame(i));
+    for (int i = 40; i < 60; ++i) {
+      const FrameRecord& frame = system.Process(elsewhere ? upside_down(i) : poster.Frame(i));
+      if (i == 40 && elsewhere) {
+        EXPECT_EQ(frame.status, FrameStatus::kLost);
+      }
+    }
+    EXPECT_EQ(system.frames().back().status, FrameStatus::kTracked);
+    EXPECT_EQ(system.frames().back().map, MapId{elsewhere ? 1 : 0});
+    system.Finish();
+  }
 }
 
 TEST(System, IsCompleteWithoutTheAdjustmentThatEndsARun) {

@@ -15,19 +15,20 @@
 namespace plumbline {
 namespace {
 
-constexpr double kSigma = 1e-3;
+constexpr double kPairwiseSigma = 1e-3;
 
 // Matches of points of a volume in front of both cameras; every `wrong`-th one is a wrong match.
-std::vector<RayMatch> MakeMatches(const Rigid3& b_from_a,
-                                  double noise,
-                                  int wrong,
-                                  bool plane = false) {
+std::vector<RayMatch> MakePairwiseMatches(const Rigid3& b_from_a,
+                                          double noise,
+                                          int wrong,
+                                          bool plane = false) {
   Rng rng(5, "pairwise");
   std::vector<RayMatch> matches;
   for (int i = 0; i < 200; ++i) {
     const double z = plane ? 4 : rng.Uniform(2, 8);
     const Eigen::Vector3d in_a(z * rng.Uniform(-0.5, 0.5), z * rng.Uniform(-0.4, 0.4), z);
-    RayMatch match{in_a.hnormalized(), (b_from_a * in_a).hnormalized(), kSigma, kSigma};
+    RayMatch match{
+        in_a.hnormalized(), (b_from_a * in_a).hnormalized(), kPairwiseSigma, kPairwiseSigma};
     for (int k = 0; k < 2; ++k) {
       match.a(k) += noise * rng.Normal();
       match.b(k) += noise * rng.Normal();
@@ -38,29 +39,29 @@ std::vector<RayMatch> MakeMatches(const Rigid3& b_from_a,
   return matches;
 }
 
-const Rigid3 kPose{ExpSo3({0.02, -0.05, 0.03}), Eigen::Vector3d(0.5, -0.2, 0.3)};
+const Rigid3 kPairwiseTruth{ExpSo3({0.02, -0.05, 0.03}), Eigen::Vector3d(0.5, -0.2, 0.3)};
 
-double DirectionErrorDeg(const Rigid3& found, const Rigid3& truth) {
+double PairwiseDirectionErrorDeg(const Rigid3& found, const Rigid3& truth) {
   return std::acos(std::clamp(found.translation.dot(truth.translation.normalized()), -1.0, 1.0)) *
          180 / M_PI;
 }
 
 TEST(EstimatePairwisePose, IsExactWithoutNoise) {
   Rng rng(1);
-  const auto pose = EstimatePairwisePose(MakeMatches(kPose, 0, 0), rng);
+  const auto pose = EstimatePairwisePose(MakePairwiseMatches(kPairwiseTruth, 0, 0), rng);
   ASSERT_TRUE(pose);
-  EXPECT_LT(pose->b_from_a.rotation.angularDistance(kPose.rotation), 1e-9);
-  EXPECT_LT(DirectionErrorDeg(pose->b_from_a, kPose), 1e-5);  // with its sign
+  EXPECT_LT(pose->b_from_a.rotation.angularDistance(kPairwiseTruth.rotation), 1e-9);
+  EXPECT_LT(PairwiseDirectionErrorDeg(pose->b_from_a, kPairwiseTruth), 1e-5);  // with its sign
   EXPECT_NEAR(pose->b_from_a.translation.norm(), 1, 1e-12);
 }
 
 TEST(EstimatePairwisePose, FindsThePoseAmongWrongMatches) {
   Rng rng(2);
-  const auto matches = MakeMatches(kPose, kSigma, 5);
+  const auto matches = MakePairwiseMatches(kPairwiseTruth, kPairwiseSigma, 5);
   const auto pose = EstimatePairwisePose(matches, rng);
   ASSERT_TRUE(pose);
-  EXPECT_LT(pose->b_from_a.rotation.angularDistance(kPose.rotation), 0.01);
-  EXPECT_LT(DirectionErrorDeg(pose->b_from_a, kPose), 5);
+  EXPECT_LT(pose->b_from_a.rotation.angularDistance(kPairwiseTruth.rotation), 0.01);
+  EXPECT_LT(PairwiseDirectionErrorDeg(pose->b_from_a, kPairwiseTruth), 5);
   ASSERT_EQ(pose->is_inlier.size(), matches.size());
   int kept = 0, wrong_kept = 0;
   for (std::size_t i = 0; i < matches.size(); ++i) {
@@ -73,25 +74,25 @@ TEST(EstimatePairwisePose, FindsThePoseAmongWrongMatches) {
 
 TEST(EstimatePairwisePose, NeedsEightMatches) {
   Rng rng(3);
-  auto matches = MakeMatches(kPose, 0, 0);
+  auto matches = MakePairwiseMatches(kPairwiseTruth, 0, 0);
   matches.resize(7);
   EXPECT_FALSE(EstimatePairwisePose(matches, rng));
 }
 
 TEST(TranslationFromTwoPoints, IsTheDirectionUpToItsSign) {
-  const auto matches = MakeMatches(kPose, 0, 0);
+  const auto matches = MakePairwiseMatches(kPairwiseTruth, 0, 0);
   const std::array<RayMatch, 2> pair = {matches[3], matches[17]};
-  const auto t = TranslationFromTwoPoints(kPose.rotation, pair);
+  const auto t = TranslationFromTwoPoints(kPairwiseTruth.rotation, pair);
   ASSERT_TRUE(t);
-  EXPECT_LT(t->cross(kPose.translation.normalized()).norm(), 1e-9);
+  EXPECT_LT(t->cross(kPairwiseTruth.translation.normalized()).norm(), 1e-9);
   const std::array<RayMatch, 2> same = {matches[3], matches[3]};
-  EXPECT_FALSE(TranslationFromTwoPoints(kPose.rotation, same));
+  EXPECT_FALSE(TranslationFromTwoPoints(kPairwiseTruth.rotation, same));
 }
 
 // Of true matches, 83 of 100 have both distances below the 95 % limit.
 TEST(IsNearEpipolarLines, KeepsMostTrueMatches) {
-  const auto matches = MakeMatches(kPose, kSigma, 0);
-  const Eigen::Matrix3d E = EssentialMatrix(kPose);
+  const auto matches = MakePairwiseMatches(kPairwiseTruth, kPairwiseSigma, 0);
+  const Eigen::Matrix3d E = EssentialMatrix(kPairwiseTruth);
   const auto near = std::count_if(
       matches.begin(), matches.end(), [&](const RayMatch& m) { return IsNearEpipolarLines(E, m); });
   EXPECT_GT(near, 150);

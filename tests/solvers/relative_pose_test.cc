@@ -3,6 +3,7 @@
 #include "plumbline/solvers/relative_pose.h"
 
 #include "plumbline/base/chi2.h"
+#include "plumbline/base/random.h"
 #include "plumbline/geometry/epipolar.h"
 #include "plumbline/solvers/epipolar_cost.h"
 

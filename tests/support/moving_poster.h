@@ -33,7 +33,7 @@ class MovingPoster {
       const auto y = static_cast<int>(rng.Index(kHeight));
       const auto w = static_cast<int>(4 + rng.Index(36));
       const auto h = static_cast<int>(4 + rng.Index(36));
-      Fill(x, y, w, h, static_cast<std::uint8_t>(rng.Index(256)));
+      FillIn(picture_, x, y, w, h, static_cast<std::uint8_t>(rng.Index(256)));
     }
   }
 
@@ -66,12 +66,32 @@ class MovingPoster {
   static SensorFrame BlindFrame(int index) {
     return {StampNs(index), GrayImage(kWidth, kHeight, 90), GrayImage(kWidth, kHeight, 90), {}};
   }
+  // A frame of another place, which shows enough for a pose, and too little to start a map.
+  static SensorFrame StrangeFrame(int index) {
+    SensorFrame frame = BlindFrame(index);
+    FillIn(frame.left, 200, 120, 25, 25, 200);
+    FillIn(*frame.right, 200 - kDisparityPx, 120, 25, 25, 200);
+    return frame;
+  }
+  // A frame of a covered lens: noise that is another one in each image.
+  static SensorFrame NoiseFrame(int index) {
+    SensorFrame frame = BlindFrame(index);
+    Rng rng(12, "covered_lens", static_cast<std::uint64_t>(index));
+    for (GrayImage* image : {&frame.left, &*frame.right}) {
+      for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+          image->row(y)[x] = static_cast<std::uint8_t>(rng.Index(40));
+        }
+      }
+    }
+    return frame;
+  }
   static std::int64_t StampNs(int index) { return 1'000'000'000 + 50'000'000LL * index; }
 
  private:
-  void Fill(int x0, int y0, int w, int h, std::uint8_t value) {
-    for (int y = y0; y < std::min(y0 + h, picture_.height()); ++y) {
-      std::fill(picture_.row(y) + x0, picture_.row(y) + std::min(x0 + w, picture_.width()), value);
+  static void FillIn(GrayImage& image, int x0, int y0, int w, int h, std::uint8_t value) {
+    for (int y = y0; y < std::min(y0 + h, image.height()); ++y) {
+      std::fill(image.row(y) + x0, image.row(y) + std::min(x0 + w, image.width()), value);
     }
   }
   GrayImage Cut(int x0) const {

@@ -134,8 +134,9 @@ inline ColmapModel ReadColmapText(const std::filesystem::path& folder) {
     ColmapModel::Point point;
     point.id = Whole(line);
     for (Eigen::Index i = 0; i < 3; ++i) point.position(i) = Real(line);
-    point.grey = static_cast<std::uint8_t>(Whole(line));
-    if (Whole(line) != point.grey || Whole(line) != point.grey) Fail("a colour");
+    for (std::uint8_t* channel : {&point.color.r, &point.color.g, &point.color.b}) {
+      *channel = static_cast<std::uint8_t>(Whole(line));
+    }
     point.error = Real(line);
     while (!(line >> std::ws).eof()) {
       const auto image = static_cast<std::uint32_t>(Whole(line));
@@ -182,9 +183,9 @@ inline ColmapModel ReadColmapBinary(const std::filesystem::path& folder) {
   for (ColmapModel::Point& point : model.points) {
     point.id = static_cast<std::int64_t>(points.Next<std::uint64_t>());
     for (Eigen::Index i = 0; i < 3; ++i) point.position(i) = points.Next<double>();
-    point.grey = points.Next<std::uint8_t>();
-    const auto green = points.Next<std::uint8_t>();
-    if (green != point.grey || points.Next<std::uint8_t>() != point.grey) Fail("a colour");
+    for (std::uint8_t* channel : {&point.color.r, &point.color.g, &point.color.b}) {
+      *channel = points.Next<std::uint8_t>();
+    }
     point.error = points.Next<double>();
     point.track.resize(points.Next<std::uint64_t>());
     for (ColmapModel::View& view : point.track) {

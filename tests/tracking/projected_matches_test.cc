@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/tracking/projected_matches.h"
 
-#include "lab/line_rivals/rival_method.h"
 #include "plumbline/association/line_information.h"
 
 #include "tests/association/line_scene.h"
@@ -22,7 +21,7 @@ using testing::LineScene;
 
 LineOptions Projected(LineWeighting weighting = LineWeighting::kCovariance) {
   LineOptions lines{.residual = LineResidualKind::kProjectedEnds, .weighting = weighting};
-  lines.method = MethodFor(lines);
+  lines.method = ProductLineMethod(lines);
   return lines;
 }
 

@@ -245,7 +245,7 @@ TEST(Tracker, RecoversAfterABlackout) {
   for (int i = 21; i <= 25; ++i) {
     const TrackingResult result = run.StepBlind();
     EXPECT_EQ(result.state, TrackerState::kLost);
-    EXPECT_EQ(result.failure, TrackingFailure::kTooFewMatches);
+    EXPECT_EQ(result.failure, TrackingFailure::kTooFewFeatures);
     EXPECT_FALSE(result.cam_from_world);
     EXPECT_FALSE(result.keyframe);
   }
@@ -462,7 +462,7 @@ TEST(Tracker, APoseInAnEarlierSnapshotMovesWithTheMap) {
 TEST(Tracker, WaitsWithANewMapWhereItIsToldTo) {
   for (const double seconds : {0.0, 1.0}) {
     const SyntheticWorld world = World();
-    Tracker tracker(world.Imaging(), {}, {world.camera, {}, {}}, Rigid3{}, seconds);
+    Tracker tracker(world.Imaging(), {}, {world.camera, {}, {}}, Rigid3{}, {seconds, 0});
     Rng rng(1);
     Map map;
     const TrackingResult start =

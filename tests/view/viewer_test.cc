@@ -4,12 +4,14 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/recording/mcap.h"
+#include "plumbline/view/view_state.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/support/true_map.h"
 #include "tests/support/web_socket_client.h"
 #include <atomic>
 #include <cstddef>
+#include <cstring>
 #include <fstream>
 #include <functional>
 #include <future>
@@ -52,6 +54,23 @@ double MegabytesInUse() {
 }
 
 // A run of made-up frames that shows itself.
+// One camera has none; its lengths are no metres, which the page has to know.
+TEST(ViewState, TellsTheBaselineOfTheCamera) {
+  constexpr double kBaseline = 0.11;
+  std::string field(9, '\x39');  // 7, of 8 bytes
+  std::memcpy(field.data() + 1, &kBaseline, sizeof kBaseline);
+  for (const double baseline : {kBaseline, 0.0}) {
+    ViewedRun run;
+    run.camera = TestCamera();
+    run.camera.baseline = baseline;
+    ViewState state(run);
+    ViewCursor cursor;
+    const SharedBytes update = state.Next(Stream::kUpdates, cursor, 0);
+    ASSERT_NE(update, nullptr);
+    EXPECT_EQ(update->find(field) != std::string::npos, baseline > 0);
+  }
+}
+
 class Shown : public testing::Test {
  protected:
   Shown() {
@@ -206,6 +225,22 @@ TEST_F(Shown, OthersAreRefused) {
   TestSocket post(port_);
   post.Send("POST " + right + " HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n\r\n");
   EXPECT_THAT(post.TakeUntil("\r\n"), HasSubstr("405 Method Not Allowed"));
+}
+
+// Of two headers, one would be checked and the other believed.
+TEST_F(Shown, RequestsWithTwoHostsAreRefused) {
+  Open();
+  for (const std::string twice : {"Host: localhost\r\nHost: localhost\r\n",
+                                  "Host: localhost\r\nhost: evil.example\r\n",
+                                  "Host: evil.example\r\nHost: localhost\r\n",
+                                  "Host: localhost\r\nOrigin: a\r\nOrigin: b\r\n"}) {
+    TestSocket get(port_);
+    get.Send("GET / HTTP/1.1\r\n" + twice + "\r\n");
+    EXPECT_THAT(get.TakeUntil("\r\n"), HasSubstr("400 Bad Request")) << twice;
+  }
+  TestSocket get(port_);
+  get.Send("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_THAT(get.TakeUntil("\r\n"), HasSubstr("200 OK"));
 }
 
 TEST_F(Shown, APortThatIsTakenIsBadInput) {
@@ -473,6 +508,30 @@ TEST(ViewState, ShowsFramesWhoseImageIsTooLongWithoutIt) {
   ViewCursor cursor;
   EXPECT_EQ(state.Next(Stream::kImage, cursor, 0), nullptr);
   EXPECT_NE(state.Next(Stream::kUpdates, cursor, 0), nullptr);
+}
+
+TEST(ViewState, ShowsBothImagesOfAPair) {
+  for (const bool pair : {true, false}) {
+    ViewedRun run;
+    run.camera = TestCamera();
+    ViewState state{run};
+    ViewedFrame frame;
+    frame.record.id = FrameId{0};
+    frame.image = GrayImage(64, 48, 90);
+    if (pair) frame.right = GrayImage(64, 48, 200);
+    state.Take(std::move(frame));
+    ViewCursor cursor;
+    const SharedBytes left = state.Next(Stream::kImage, cursor, 0);
+    const SharedBytes right = state.Next(Stream::kRightImage, cursor, 0);
+    const SharedBytes camera = state.Next(Stream::kRightCalibration, cursor, 0);
+    ASSERT_NE(left, nullptr);
+    ASSERT_EQ(right != nullptr, pair);
+    ASSERT_EQ(camera != nullptr, pair);
+    if (!pair) continue;
+    EXPECT_THAT(*right, HasSubstr("\xff\xd8\xff"));
+    EXPECT_NE(*right, *left);
+    EXPECT_EQ(state.Next(Stream::kRightImage, cursor, 0), nullptr);
+  }
 }
 
 TEST_F(Shown, ARecordingThatCannotBeWrittenIsBadInput) {

@@ -6,8 +6,10 @@
 #include "lab/experiments/computed.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/slam/options.h"
+#include "plumbline/slam/preset.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <string>
 #include <vector>
@@ -23,6 +25,8 @@ SlamOptions OptionsOf(const std::string& experiment, const std::string& variant)
   OptionTable table(options);
   for (const Variant& v : FindExperiment(experiment).variants) {
     if (v.name != variant) continue;
+    const auto preset = std::find(v.arguments.begin(), v.arguments.end(), "--preset");
+    if (preset != v.arguments.end()) LoadPreset(*std::next(preset), table);
     for (const std::string& setting : v.settings) table.Set(setting);
     return options;
   }
@@ -71,7 +75,7 @@ TEST(PaperCatalog, LoopsStayOpenInAllOfThem) {
 TEST(PaperCatalog, TheSystemsOfTable2DifferInAllThatMakesThem) {
   const SlamOptions rippl = OptionsOf("rippl-table2", "RIPPL"),
                     epl = OptionsOf("rippl-table2", "EPL"), ppl = OptionsOf("rippl-table2", "PPL");
-  EXPECT_EQ(rippl.initialization.method, InitializationMethod::kRank1);
+  EXPECT_EQ(rippl.initialization.method, InitializationMethod::kRank1Pairwise);
   EXPECT_EQ(epl.initialization.method, InitializationMethod::kTwoView);
   EXPECT_EQ(ppl.initialization.method, InitializationMethod::kTwoView);
   EXPECT_EQ(rippl.lines.parametrization, LineParametrization::kPlucker);

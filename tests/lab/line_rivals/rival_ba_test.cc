@@ -3,9 +3,9 @@
 #include "lab/line_rivals/rival_ba.h"
 
 #include "lab/line_rivals/line_ends.h"
-#include "plumbline/tracking/projected_ends.h"
 #include "plumbline/base/error.h"
 #include "plumbline/optimization/local_ba.h"
+#include "plumbline/tracking/projected_ends.h"
 
 #include "tests/optimization/ba_properties.h"
 #include "tests/optimization/ba_scene.h"

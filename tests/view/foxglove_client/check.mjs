@@ -21,8 +21,9 @@ const {foxgloveEnumSchemas, foxgloveMessageSchemas, generateProto} =
     require("@foxglove/schemas/internal");
 
 const TOPICS = [
-  "/camera/annotations", "/camera/calibration", "/camera/image", "/camera/pose", "/map/lines",
-  "/map/points", "/plumbline/updates", "/tf"
+  "/camera/annotations", "/camera/calibration", "/camera/image", "/camera/pose",
+  "/camera_right/calibration", "/camera_right/image", "/map/lines", "/map/points",
+  "/plumbline/updates", "/tf"
 ];
 
 function check(holds, what) {
@@ -71,6 +72,8 @@ function ourTypes(schema) {
 const checks = {
   "/camera/image": (m) => check(m.format === "jpeg" && m.data[0] === 0xff && m.data[1] === 0xd8, "a JPEG file"),
   "/camera/calibration": (m) => check(m.width > 0 && m.K.length === 9 && m.P.length === 12, "a camera"),
+  "/camera_right/image": (m) => check(m.format === "jpeg" && m.data[0] === 0xff, "a JPEG file"),
+  "/camera_right/calibration": (m) => check(m.width > 0 && m.P[3] < 0, "the right camera of a pair"),
   "/camera/annotations": (m) => check(m.points.length > 0 && m.points[0].points.length > 0, "marks"),
   "/camera/pose": (m) => check(m.frame_id === "map" && m.pose.orientation, "a pose"),
   "/tf": (m) => check(m.parent_frame_id === "map" && m.child_frame_id === "camera", "a transform"),

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/evaluate_outputs.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
+#include "plumbline/io/path_overlap.h"
+#include "plumbline/io/trajectory_io.h"
+#include "plumbline/report/run_folder.h"
+#include "plumbline/report/run_manifest.h"
+
+#include "apps/command_outputs.h"
+#include "apps/figure_file.h"
+#include <algorithm>
+#include <set>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kAlignedHead = "# aligned by plumbline evaluate";
+
+// The last `count` parts of a path, joined.
+std::string LastParts(const fs::path& path, std::size_t count) {
+  std::vector<std::string> parts;
+  for (const fs::path& part : path) {
+    if (part != "/" && part != "." && part != ".." && !part.empty()) parts.push_back(part.string());
+  }
+  if (parts.empty()) return "estimate";
+  if (fs::path(parts.back()).extension() == ".txt") {
+    parts.back() = fs::path(parts.back()).stem().string();
+  }
+  std::string name;
+  for (std::size_t i = parts.size() - std::min(count, parts.size()); i < parts.size(); ++i) {
+    name += (name.empty() ? "" : "_") + parts[i];
+  }
+  return name;
+}
+
+using NamedOutput = std::pair<std::string_view, fs::path>;
+
+std::vector<NamedOutput> Named(const EvaluateOutputs& outputs) {
+  std::vector<NamedOutput> named;
+  if (outputs.json) named.emplace_back("--json", *outputs.json);
+  if (outputs.plot) named.emplace_back("--plot", *outputs.plot);
+  if (outputs.plot_lines) named.emplace_back("--plot-lines", *outputs.plot_lines);
+  for (const fs::path& file : outputs.aligned) named.emplace_back("--save-aligned", file);
+  return named;
+}
+
+// The folder of the run that an estimate is of; nullopt: it is of none.
+std::optional<fs::path> FolderOfRun(const fs::path& estimate) {
+  std::error_code error;
+  if (fs::is_directory(estimate, error)) return estimate;
+  const fs::path folder = fs::absolute(estimate, error).parent_path();
+  if (!fs::exists(folder / RunManifest::kFile, error)) return std::nullopt;
+  return folder;
+}
+
+// Each output has a place of its own.
+void CheckApartFromEachOther(const std::vector<NamedOutput>& outputs) {
+  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+    for (auto before = outputs.begin(); before != output; ++before) {
+      if (!IsSamePath(output->second, before->second)) continue;
+      throw InputError(std::string(output->first) + " " + output->second.string() +
+                       ": expected another file than that of " + std::string(before->first));
+    }
+  }
+}
+
+// What evaluate wrote for one estimate, and for several.
+bool IsJsonOfEvaluate(const fs::path& file) {
+  return FileBeginsWith(file, "{\n  \"alignment\": ") ||
+         FileBeginsWith(file, "{\n  \"estimates\": ");
+}
+
+// What an output may take the place of.
+FileKind KindOfOutput(std::string_view option, const fs::path& file) {
+  if (option == "--json") return {"JSON of evaluate", "{\n  \"", IsJsonOfEvaluate};
+  if (option == "--save-aligned") return {"a trajectory aligned by evaluate", kAlignedHead};
+  if (file.extension() == ".png") return {"a PNG file", "\x89PNG\r\n\x1a\n"};
+  return {"a drawing by plumbline", "<svg "};
+}
+
+void ReadAligned(const std::string& text,
+                 const std::vector<std::string>& names,
+                 EvaluateOutputs& outputs) {
+  constexpr const char* kOption = "--save-aligned";
+  const fs::path path = text;
+  std::error_code error;
+  const bool folder = fs::is_directory(path, error);
+  if (text == "-") throw InputError(std::string(kOption) + ": expected a file or folder, found -");
+  if (names.size() == 1 && !folder && path.has_filename()) {
+    outputs.aligned.push_back(path);
+    return;
+  }
+  if (!folder && fs::exists(path, error)) {
+    throw InputError(std::string(kOption) + " " + text +
+                     ": expected a folder for several estimates, found another file");
+  }
+  if (!folder) outputs.new_folder = path;
+  for (const std::string& name : names) outputs.aligned.push_back(path / (name + ".txt"));
+}
+
+}  // namespace
+
+std::vector<std::string> ShortNames(const std::vector<std::string>& paths) {
+  constexpr std::size_t kMostParts = 64;
+  std::vector<std::string> names;
+  for (const std::string& path : paths) names.push_back(LastParts(path, 1));
+  for (std::size_t count = 2; count <= kMostParts; ++count) {
+    const std::vector<std::string> shorter = names;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (std::count(shorter.begin(), shorter.end(), shorter[i]) > 1) {
+        names[i] = LastParts(paths[i], count);
+      }
+    }
+  }
+  std::set<std::string> taken;
+  for (std::string& name : names) {
+    const std::string plain = name;
+    for (int k = 2; !taken.insert(name).second; ++k) name = plain + "-" + std::to_string(k);
+  }
+  return names;
+}
+
+EvaluateOutputs ReadOutputs(const CommandLine& line, const std::vector<std::string>& names) {
+  EvaluateOutputs outputs;
+  if (const auto path = line.Value("--json")) {
+    outputs.json_to_stdout = *path == "-";
+    if (!outputs.json_to_stdout) outputs.json = *path;
+  }
+  if (const auto path = line.Value("--plot")) outputs.plot = *path;
+  if (const auto path = line.Value("--plot-lines")) outputs.plot_lines = *path;
+  if (outputs.plot) CheckFigureName(*outputs.plot);
+  if (outputs.plot_lines) CheckFigureName(*outputs.plot_lines);
+  if (const auto path = line.Value("--save-aligned")) ReadAligned(*path, names, outputs);
+  return outputs;
+}
+
+void CheckOutputs(const EvaluateOutputs& outputs,
+                  const fs::path& reference,
+                  const std::vector<std::string>& estimates,
+                  const std::vector<fs::path>& read) {
+  std::error_code error;
+  const bool of_data_set = fs::is_directory(reference, error);
+  for (const auto& [option, path] : Named(outputs)) {
+    const std::string what = std::string(option) + " " + path.string();
+    if (of_data_set && fs::exists(path, error) && IsWithin(path, reference)) {
+      throw InputError(what + ": expected a file outside of " + reference.string() +
+                       ", or a new one");
+    }
+    for (const fs::path& input : read) {
+      if (!fs::equivalent(path, input, error)) continue;
+      throw InputError(what + ": expected a file to write, found one that is compared");
+    }
+    for (const std::string& estimate : estimates) {
+      if (const auto run = FolderOfRun(estimate)) CheckNoResult(option, path, *run);
+    }
+    CheckOutput(option, path, {}, KindOfOutput(option, path));
+  }
+  CheckApartFromEachOther(Named(outputs));
+}
+
+FileContents AlignedFile(const fs::path& file, const Trajectory& aligned) {
+  CheckTum(file, aligned);
+  return {file,
+          std::string(kAlignedHead) + "\n# timestamp tx ty tz qx qy qz qw\n" + FormatTum(aligned)};
+}
+
+void WriteOutputs(const EvaluateOutputs& outputs, const std::vector<FileContents>& files) {
+  if (outputs.new_folder) MakeFolder(*outputs.new_folder);
+  try {
+    WriteFilesAtomically(files);
+  } catch (...) {
+    std::error_code ignored;  // where it is not empty
+    if (outputs.new_folder) fs::remove(*outputs.new_folder, ignored);
+    throw;
+  }
+}
+
+}  // namespace plumbline

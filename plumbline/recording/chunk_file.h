@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/error.h"
+#include "plumbline/recording/compression.h"
+#include "plumbline/recording/recording.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+
+// The bytes of unpacked parts, shared by all that read from them.
+using ChunkBytes = std::shared_ptr<const std::vector<std::uint8_t>>;
+
+// A file of messages in parts that are each packed by themselves. Messages of parts that were read
+// recently are found quickly.
+class ChunkFile : public Recording {
+ public:
+  // Opens a file; `name` is what messages call it, where it is not its path. Throws InputError
+  // where there is no such file.
+  explicit ChunkFile(const std::filesystem::path& path, const std::filesystem::path& name = {});
+
+  std::uint64_t size() const { return size_; }
+
+  // Adds a part of the file and returns its index: `stored` bytes at `offset`, which hold `size`
+  // bytes.
+  std::uint32_t AddChunk(std::uint64_t offset,
+                         std::uint64_t stored,
+                         Compression compression,
+                         std::uint64_t size);
+
+  // Returns bytes of the file as they are. Throws InputError where it has fewer.
+  std::vector<std::uint8_t> Bytes(std::uint64_t offset, std::uint64_t count) const;
+  // Returns the unpacked part, or what is wrong with it. Thread-safe.
+  Expected<ChunkBytes, std::string> Chunk(std::uint32_t index) const;
+  Expected<std::vector<std::uint8_t>, std::string> StoredBytes(
+      const StoredMessage& message) const override;
+
+  // Throws InputError "path: byte 4117: why".
+  [[noreturn]] void FailAt(std::uint64_t offset, const std::string& why) const;
+
+ private:
+  struct ChunkPlace {
+    std::uint64_t offset = 0, stored = 0, size = 0;
+    Compression compression = Compression::kNone;
+  };
+  // The parts that were used last, newest first: messages of two cameras lie close together.
+  using RecentChunks = std::array<std::pair<std::uint32_t, ChunkBytes>, 4>;
+
+  std::uint64_t size_ = 0;
+  std::vector<ChunkPlace> chunks_;
+  mutable std::mutex mutex_;
+  mutable std::ifstream file_;
+  mutable RecentChunks recent_;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/projection_search.h"
+#include "plumbline/geometry/calibration.h"
+#include "plumbline/geometry/se3.h"
+#include "plumbline/image/pyramid.h"
+#include "plumbline/image/rectify.h"
+#include "plumbline/slam/execution.h"
+#include "plumbline/slam/front_end.h"
+#include "plumbline/slam/mapping_stage.h"
+#include "plumbline/slam/monocular_start.h"
+#include "plumbline/slam/options.h"
+#include "plumbline/slam/shed.h"
+#include "plumbline/tracking/tracker.h"
+
+#include <memory>
+
+namespace plumbline {
+
+// The stages of a System, whose header does not bring theirs along.
+struct SystemStages {
+  // Throws InputError as System does.
+  SystemStages(const Calibration& calibration,
+               const SlamOptions& options,
+               const Execution& execution);
+
+  FrontEnd front_end;
+  ImagingModel imaging;
+  MappingStage mapping;
+  Tracker tracker;
+  std::unique_ptr<MonocularStart> monocular_start;  // null where depth is measured
+};
+
+// Returns the pose of the tracker's camera, which is the rectified one, at a map's first frame. The
+// map's world is the left camera as delivered.
+Rigid3 WorldFromFirstCamera(const Rectifier& rectifier);
+
+// A frame whose pose was returned, and which still leaves something to do for the map.
+struct UnfinishedFrame {
+  TrackingResult result;
+  Shed shed = Shed::kNothing;
+  std::shared_ptr<const ImagePyramid> left_pyramid = nullptr;  // MeasuredFrame::left_pyramid
+};
+
+}  // namespace plumbline

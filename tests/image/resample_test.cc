@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/image/resample.h"
+
+#include "plumbline/base/random.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+GrayImage NoiseImage(int width, int height) {
+  GrayImage image(width, height);
+  Rng rng(5, "resample_test");
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) image.at(x, y) = static_cast<std::uint8_t>(rng.Index(256));
+  }
+  return image;
+}
+
+// The rows of an image of letters, one behind the other.
+std::string Rows(const GrayImage& image) {
+  std::string rows;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) rows += static_cast<char>(image.at(x, y));
+    rows += ' ';
+  }
+  return rows;
+}
+
+TEST(TurnedImage, HasEachOrientationOfExif) {
+  GrayImage image(3, 2);
+  std::copy_n("abcdef", 6, image.data());
+  const std::vector<std::string> expected = {"abc def ",
+                                             "cba fed ",
+                                             "fed cba ",
+                                             "def abc ",
+                                             "ad be cf ",
+                                             "da eb fc ",
+                                             "fc eb da ",
+                                             "cf be ad "};
+  for (int exif = 1; exif <= 8; ++exif) {
+    const Orientation orientation = OrientationOfExif(exif);
+    const GrayImage turned = Turned(image, orientation);
+    EXPECT_EQ(Rows(turned), expected[static_cast<std::size_t>(exif) - 1]) << exif;
+    EXPECT_EQ(Rows(Turned(turned, Inverse(orientation))), "abc def ") << exif;
+  }
+}
+
+// The part of the unit interval at i that lies in [begin, end].
+double Part(int i, double begin, double end) {
+  return std::max(0.0, std::min(end, i + 1.0) - std::max(begin, static_cast<double>(i)));
+}
+
+TEST(AreaAveraged, IsTheMeanOfTheArea) {
+  for (const auto& [width, height] : {std::pair{23, 17}, {8, 5}, {46, 34}, {1, 1}, {45, 34}}) {
+    const GrayImage image = NoiseImage(46, 34);
+    const GrayImage reduced = AreaAveraged(image, width, height);
+    ASSERT_EQ(reduced.width(), width);
+    ASSERT_EQ(reduced.height(), height);
+    const double sx = 46.0 / width, sy = 34.0 / height;
+    for (int v = 0; v < height; ++v) {
+      for (int u = 0; u < width; ++u) {
+        double sum = 0;
+        for (int y = 0; y < 34; ++y) {
+          for (int x = 0; x < 46; ++x) {
+            sum += image.at(x, y) * Part(x, u * sx, (u + 1) * sx) * Part(y, v * sy, (v + 1) * sy);
+          }
+        }
+        EXPECT_NEAR(reduced.at(u, v), sum / (sx * sy), 0.5 + 1e-6);
+      }
+    }
+  }
+  EXPECT_EQ(Rows(AreaAveraged(NoiseImage(46, 34), 46, 34)), Rows(NoiseImage(46, 34)));
+}
+
+TEST(AreaAveraged, KeepsTheBrightestOfTheLargest) {
+  const GrayImage reduced = AreaAveraged(GrayImage(99'999, 3, 255), 1000, 2);
+  EXPECT_TRUE(std::all_of(reduced.data(), reduced.data() + 2000, [](int p) { return p == 255; }));
+}
+
+TEST(NearestPixels, MixesNothing) {
+  DepthImage depth(9, 4, 1.0F);
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 5; x < 9; ++x) depth.at(x, y) = 7.0F;
+  }
+  depth.at(1, 1) = 0;
+  const DepthImage reduced = NearestPixels(depth, 3, 1);
+  EXPECT_EQ(reduced.at(0, 0), 1.0F);
+  EXPECT_EQ(reduced.at(1, 0), 1.0F);  // column 4, the middle of columns 3 to 5
+  EXPECT_EQ(reduced.at(2, 0), 7.0F);
+  depth.at(1, 2) = 0;
+  EXPECT_EQ(NearestPixels(depth, 3, 1).at(0, 0), 0.0F);  // not measured there
+}
+
+}  // namespace
+}  // namespace plumbline
