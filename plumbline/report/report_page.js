@@ -54,7 +54,8 @@ function verdict() {
         `coverage ${percentOfFrames(mainMap.pose_count)} %)`);
   }
   if (events.length) parts.push(eventCounts().join(", "));
-  if (shedWork().length) parts.push(`behind the camera: ${shedWork().join(", ")}`);
+  if (shedWork().length)
+    parts.push(`load reduced to keep up with the camera: ${shedWork().join(", ")}`);
   if (framesPerSecond()) parts.push(`${digits(framesPerSecond())} frames/s`);
   parts.push(`${digits(data.run.peak_memory_mb)} MB of memory at most`);
   // Numbers stay beside their units.
