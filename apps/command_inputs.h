@@ -16,8 +16,7 @@ namespace plumbline {
 // what comes from a pipe, and a camera that is built in have no place.
 std::vector<RunInput> CommandInputs(const CommandLine& line, const Dataset& dataset);
 
-// What --rotate and --max-width do to images before they are used, with the same words in every
-// command that reads images.
+// The help of --rotate and --max-width is the same in every command that reads images.
 inline constexpr const char* kRotateHelp =
     "turn images clockwise; auto (default): as a video or the EXIF data of stills ask";
 inline constexpr const char* kMaxWidthHelp =

@@ -19,8 +19,8 @@
 namespace plumbline {
 namespace {
 
-// Whether the first row of a file is as FormatTum writes it: a time and seven numbers, each with
-// nine decimals.
+// A trajectory of ours begins with a row of FormatTum: a time and seven numbers, each with nine
+// decimals.
 bool BeginsAsOurTrajectory(const std::filesystem::path& path) {
   constexpr std::size_t kLongestRow = 400;
   static const std::regex row(R"(-?[0-9]+\.[0-9]{9}( -?[0-9]+\.[0-9]{9}){7})");

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-// What files that a user names may take the place of (docs/adr/0016): the same for the program and
-// for Python.
+// An output that a user names replaces files of its own kind only (docs/adr/0016); one rule for the
+// program and for Python.
 namespace plumbline {
 
 // Files that a command writes to a place that users name.

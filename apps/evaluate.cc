@@ -280,7 +280,7 @@ std::optional<Evaluation> EvaluateOther(const CommandLine& line,
   return evaluation;
 }
 
-// What there is of one estimate.
+// An estimate that was compared with the reference.
 struct EvaluatedEstimate {
   Evaluation evaluation;
   Trajectory poses;  // as compared, not aligned

@@ -72,13 +72,13 @@ void CheckApartFromEachOther(const std::vector<NamedOutput>& outputs) {
   }
 }
 
-// What evaluate wrote for one estimate, and for several.
+// evaluate writes the one beginning for one estimate, the other for several.
 bool IsJsonOfEvaluate(const fs::path& file) {
   return FileBeginsWith(file, "{\n  \"alignment\": ") ||
          FileBeginsWith(file, "{\n  \"estimates\": ");
 }
 
-// What an output may take the place of.
+// Each output may take the place of files of its own kind only.
 FileKind KindOfOutput(std::string_view option, const fs::path& file) {
   if (option == "--json") return {"JSON of evaluate", "{\n  \"", IsJsonOfEvaluate};
   if (option == "--save-aligned") return {"a trajectory aligned by evaluate", kAlignedHead};

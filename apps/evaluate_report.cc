@@ -207,7 +207,7 @@ nlohmann::ordered_json LineMapJson(const Evaluation& evaluation) {
   return json;
 }
 
-// What holds for all estimates, and how each was aligned.
+// AddAlignment says in words how an estimate was aligned.
 void AddAlignment(std::ostringstream& table, const Evaluation& evaluation) {
   const TrajectoryError& error = evaluation.error;
   table << std::setprecision(6) << NameOf(evaluation.options.alignment);

@@ -34,7 +34,7 @@ struct Evaluation {
   ReferenceTrajectory reference;
   std::int64_t offset_ns = 0;             // what was added to the stamps of the estimate
   std::optional<std::string> aligned_by;  // the trajectory whose alignment was taken
-  // Whether lengths of the estimate are in a unit of its own, which the alignment left as it is.
+  // True if lengths of the estimate are in a unit of its own, which the alignment left as it is.
   bool unit_is_free = false;
   TrajectoryErrorOptions options;
   TrajectoryError error;

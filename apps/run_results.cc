@@ -22,13 +22,6 @@
 namespace plumbline {
 namespace {
 
-bool HasNoPose(const System& system) {
-  const FrameLog& frames = system.frames();
-  return std::none_of(frames.begin(), frames.end(), [](const FrameRecord& frame) {
-    return frame.status == FrameStatus::kTracked;
-  });
-}
-
 class ResultWriter {
  public:
   ResultWriter(const FinishedRun& run, RunFolder& folder) : run_(run), folder_(folder) {}
@@ -48,7 +41,7 @@ class ResultWriter {
       WriteSummary();
       WriteReport();
     }
-    if (folder_.HoldsPoses() && HasNoPose(run_.system)) {
+    if (folder_.HoldsPoses() && CountRun(run_.system).tracked == 0) {
       return {folder_.Failures(), interrupted_, true};
     }
     return {PutInPlace(), interrupted_};

@@ -170,20 +170,25 @@ TEST(View, ThePartOfARecordingReplacesNothing) {
   EXPECT_EQ(Contents(part), "mine");
 }
 
-TEST(View, ASavedMapIsShown) {
-  const std::uint16_t port = FreePort();
-  const pid_t child =
-      StartProgram({"map", "view", Posters().map.string(), "--view", std::to_string(port)});
+// A new client gets a message that is large enough for a map, as one of the first `messages`.
+void ExpectToShowAMap(std::uint16_t port, int messages) {
   auto client = ConnectTo(port);
   ASSERT_TRUE(client.has_value());
   SubscribeToAll(*client);
   std::size_t largest = 0;
-  for (int i = 0; i < 10 && largest < 10'000; ++i) {
+  for (int i = 0; i < messages && largest < 10'000; ++i) {
     const auto message = client->Receive();
     ASSERT_TRUE(message.has_value());
     if (message->binary) largest = std::max(largest, message->bytes.size());
   }
   EXPECT_GE(largest, 10'000U);
+}
+
+TEST(View, ASavedMapIsShown) {
+  const std::uint16_t port = FreePort();
+  const pid_t child =
+      StartProgram({"map", "view", Posters().map.string(), "--view", std::to_string(port)});
+  ExpectToShowAMap(port, 10);
   TestSocket picture(port);
   picture.Send("GET /keyframe/0 HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_THAT(picture.TakeUntil("\r\n"), HasSubstr("200 OK"));
@@ -204,18 +209,7 @@ TEST(View, AFinishedRunIsShownUntilItIsEnded) {
                                     "--out",
                                     out.string()});
   ASSERT_TRUE(WaitForFile(out / "report.html"));
-  for (int i = 0; i < 2; ++i) {  // for whoever comes later, too
-    auto client = ConnectTo(port);
-    ASSERT_TRUE(client.has_value());
-    SubscribeToAll(*client);
-    std::size_t largest = 0;
-    for (int k = 0; k < 20 && largest < 10'000; ++k) {
-      const auto message = client->Receive();
-      ASSERT_TRUE(message.has_value());
-      if (message->binary) largest = std::max(largest, message->bytes.size());
-    }
-    EXPECT_GE(largest, 10'000U);
-  }
+  for (int i = 0; i < 2; ++i) ExpectToShowAMap(port, 20);  // for whoever comes later, too
   ::kill(child, SIGINT);
   EXPECT_EQ(ExitCodeOf(child), 0);
   ExpectSameResults(Posters().out, out);
