@@ -6,7 +6,7 @@
 #include "plumbline/geometry/line_triangulation.h"
 #include "plumbline/geometry/trajectory.h"
 
-#include <functional>
+#include "tests/io/scratch_folder.h"
 #include <limits>
 #include <string>
 #include <vector>
@@ -20,15 +20,6 @@ Eigen::Quaterniond Scaled(double norm) {
   Eigen::Quaterniond q = ExpSo3({0.3, -0.5, 0.2});
   q.coeffs() *= norm;
   return q;
-}
-
-std::string MessageOf(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(UnitRotation, NormalizesWhatIsOffByLittle) {

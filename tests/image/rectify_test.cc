@@ -6,6 +6,7 @@
 #include "plumbline/base/random.h"
 #include "plumbline/image/opencv_bridge.h"
 
+#include "tests/io/scratch_folder.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/euroc_calibration.h"
 #include <algorithm>
@@ -21,15 +22,6 @@ namespace plumbline {
 namespace {
 
 using ::testing::HasSubstr;
-
-std::string MessageOf(const auto& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 double InvalidFraction(const GrayImage& mask) {
   double invalid = 0;

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/map/map_builder.h"
 
-#include "plumbline/base/error.h"
-
+#include "tests/io/scratch_folder.h"
 #include "tests/map/map_fixture.h"
 #include <cstdint>
 #include <functional>
@@ -74,15 +73,6 @@ TEST(MapBuilder, MakesTheMapAgain) {
     EXPECT_EQ(built.Find(id)->frame.points, keyframe.frame.points);
     EXPECT_EQ(built.Find(id)->frame.lines, keyframe.frame.lines);
   }
-}
-
-std::string MessageOf(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(MapBuilder, RefusesRecordsThatNoMapHas) {
