@@ -133,7 +133,14 @@ TEST(Interruption, ListenersMayGoAway) {
   }
 }
 
-// With so little address space the run fails before it begins, in its middle or not at all.
+// How many frames a run had read when it failed, as its message says: "after N of M frames".
+int FramesBefore(const std::string& message) {
+  const std::size_t place = message.find(" after ");
+  return place == std::string::npos ? 0 : std::atoi(message.c_str() + place + 7);
+}
+
+// With so little address space the run fails before it begins, in its middle or not at all. The
+// first keyframes are made while the next frames are read: a run that fails then may have no map.
 TEST(Interruption, ShortMemoryLosesNothingThatWasDone) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a sanitizer has all address space for itself";
@@ -150,7 +157,7 @@ TEST(Interruption, ShortMemoryLosesNothingThatWasDone) {
     EXPECT_TRUE(outcome.err.find("out of memory") != std::string::npos ||
                 outcome.err.find("no further thread") != std::string::npos)
         << megabytes << outcome.err;
-    if (outcome.err.find(" of 60 frames") == std::string::npos) continue;
+    if (FramesBefore(outcome.err) < 5) continue;
     EXPECT_GT(Rows(out / "trajectory.txt"), 0) << megabytes << outcome.err;
     EXPECT_TRUE(fs::exists(out / "frames.csv"));
   }
