@@ -424,6 +424,14 @@ void WriteOptions(const RunSetup& setup, RunFolder& folder) {
   if (const auto failure = folder.Failures()) throw InputError(*failure);
 }
 
+void SayEarlierIsKept(const RunFolder& folder) {
+  Say(
+      fmt::format("{} keeps the results of an earlier run, which has more poses; {} has those of "
+                  "this one",
+                  folder.path().string(),
+                  folder.part().string()));
+}
+
 void SayBefore(const Dataset& dataset,
                const RunFolder& folder,
                const std::vector<std::string>& map_notes,
@@ -452,9 +460,9 @@ std::vector<std::string> ToBeShown(std::span<const std::string> arguments) {
 }
 
 // Prints the result, for whoever still listens.
-void Print(const System& system, const Dataset& dataset, const RunSetup& setup) {
+void Print(const System& system, const Dataset& dataset, const std::filesystem::path& folder) {
   errno = 0;
-  PrintResult(system, dataset, setup.folder.string());
+  PrintResult(system, dataset, folder.string());
   if (!std::cout.flush() && errno == EPIPE) std::cout.clear();
 }
 
@@ -526,17 +534,15 @@ int RunCommand(std::span<const std::string> arguments) {
   const WrittenResults written = WriteResults(
       {system, dataset, views, std::move(description), processed.first_pose_seconds, start},
       folder);
-  if (!setup.quiet) Print(system, dataset, setup);
+  if (!setup.quiet) {
+    Print(system, dataset, written.earlier_kept ? folder.part() : folder.path());
+  }
+  if (written.earlier_kept) SayEarlierIsKept(folder);
   if (input.viewer) KeepShowing(line, system, *input.viewer, setup.quiet);
   RethrowFailures(processed, written.failure);
   if (written.interrupted) return written.interrupted->exit_code;
   const auto no_pose = WhyNoPose(system.frames(), processed.no_depth);
   if (no_pose) Say(*no_pose);
-  if (written.earlier_kept) {
-    Say(fmt::format("{} keeps the results of an earlier run; {} has those of this one",
-                    folder.path().string(),
-                    folder.part().string()));
-  }
   return no_pose ? 1 : 0;
 }
 

@@ -5,16 +5,20 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/io/atomic_file.h"
+#include "plumbline/io/path_overlap.h"
 #include "plumbline/report/html_report.h"
 #include "plumbline/report/overlay.h"
 #include "plumbline/report/run_files.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <map>
 #include <new>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -41,9 +45,7 @@ class ResultWriter {
       WriteSummary();
       WriteReport();
     }
-    if (folder_.HoldsPoses() && CountRun(run_.system).tracked == 0) {
-      return {folder_.Failures(), interrupted_, true};
-    }
+    if (KeepsEarlier()) return {folder_.Failures(), interrupted_, true};
     return {PutInPlace(), interrupted_};
   }
 
@@ -111,6 +113,18 @@ class ResultWriter {
       Write({NameOfView(frame),
              [&view = view](const auto& path) { WriteFeatureOverlay(view, path); }});
     }
+  }
+
+  // Whether an earlier run's results are worth more: this one has no pose, or it was cut off before
+  // its last frame and has fewer poses of the same data.
+  bool KeepsEarlier() const {
+    const std::optional<EarlierRun> earlier = folder_.Earlier();
+    if (!earlier) return false;
+    const RunCounts counts = CountRun(run_.system);
+    if (counts.tracked == 0) return true;
+    const bool cut_off = run_.system.frames().size() < description_.frames_chosen;
+    const bool same = !earlier->data.empty() && IsSamePath(earlier->data, description_.data_path);
+    return cut_off && same && static_cast<std::size_t>(counts.in_trajectory) < earlier->poses;
   }
 
   // The journal's files are gone but for those that are true to the end, where their final form

@@ -29,7 +29,7 @@ struct FinishedRun {
 struct WrittenResults {
   std::optional<std::string> failure;     // which files could not be written, in one line
   std::optional<StopSignal> interrupted;  // as the summary has it
-  bool earlier_kept = false;              // no frame has a pose, and those of an earlier run stay
+  bool earlier_kept = false;              // an earlier run's results stay: these are worth less
 };
 
 // Writes all files of a run into the part of its folder, those first that are worth most for their
@@ -37,7 +37,8 @@ struct WrittenResults {
 // that are not drawn yet; the summary and the report tell of it.
 //
 // Files that cannot be written do not keep the others from it. Where these would replace whole
-// results of an earlier run, those stay, and these are in the part.
+// results of an earlier run, those stay, and these are in the part. So they do where the run has no
+// pose, or was cut off and has fewer poses than the earlier one of the same data.
 WrittenResults WriteResults(const FinishedRun& run, RunFolder& folder);
 
 // Returns why a run found no pose at all, in one line; nullopt where a frame has one.

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace plumbline {
 namespace {
@@ -316,8 +317,19 @@ bool RunFolder::WouldLose() const {
   return earlier && !earlier->files.empty();
 }
 
-bool RunFolder::HoldsPoses() const {
-  return ReadRunManifest(folder_).has_value() && !HasNoRows(folder_ / "trajectory.txt");
+std::optional<EarlierRun> RunFolder::Earlier() const {
+  if (!ReadRunManifest(folder_)) return std::nullopt;
+  EarlierRun earlier;
+  std::ifstream poses(folder_ / "trajectory.txt");
+  for (std::string row; std::getline(poses, row);) ++earlier.poses;
+  if (earlier.poses == 0) return std::nullopt;
+  std::ifstream file(folder_ / "summary.json");
+  const auto summary = nlohmann::json::parse(file, nullptr, false);
+  if (summary.is_object()) {
+    const auto data = summary.find("data");
+    if (data != summary.end() && data->is_string()) earlier.data = *data;
+  }
+  return earlier;
 }
 
 void RunFolder::Commit() {

@@ -22,6 +22,12 @@ struct RunFile {
   std::function<void(const std::filesystem::path&)> write;
 };
 
+// What an earlier run left in its folder.
+struct EarlierRun {
+  std::size_t poses = 0;  // rows of trajectory.txt
+  std::string data;       // "data" of summary.json; empty where that cannot be read
+};
+
 // A file or folder that a run reads.
 struct RunInput {
   std::filesystem::path path;
@@ -90,8 +96,8 @@ class RunFolder {
   // Whether Commit() would replace complete results by some that lack files.
   bool WouldLose() const;
 
-  // Whether DIR has poses of an earlier run.
-  bool HoldsPoses() const;
+  // The earlier run whose results DIR has; nullopt where it has none with poses.
+  std::optional<EarlierRun> Earlier() const;
 
   // Moves the files of the part into DIR, removes those of the earlier run, then the part. Throws
   // InputError when that is impossible, for instance because DIR has got a file of such a name

@@ -580,7 +580,8 @@ TEST(BadInput, ARunWithoutAnyPoseFails) {
   // The poses of an earlier run are not replaced by none.
   const Outcome again = run("kept");
   EXPECT_EQ(again.code, 1);
-  EXPECT_THAT(again.err, HasSubstr("kept keeps the results of an earlier run; "));
+  EXPECT_THAT(again.err,
+              HasSubstr("kept keeps the results of an earlier run, which has more poses; "));
   EXPECT_EQ(Contents(folder / "kept/trajectory.txt"), earlier);
   EXPECT_TRUE(fs::exists(folder / "kept/.part/summary.json"));
   for (int i = 1; i < 6; ++i) {

@@ -77,6 +77,18 @@ TEST(RunFolder, LeavesEverythingAsItWasWhenNothingIsKept) {
   EXPECT_FALSE(fs::exists(scratch / "fresh"));
 }
 
+TEST(RunFolder, KnowsTheEarlierRun) {
+  const ScratchFolder scratch;
+  EXPECT_FALSE(RunFolder(scratch / "out").Earlier());
+  WriteRun(scratch / "out", {"trajectory.txt", "summary.json"}, "1 2\n3 4\n");
+  EXPECT_EQ(RunFolder(scratch / "out").Earlier()->poses, 2U);
+  EXPECT_EQ(RunFolder(scratch / "out").Earlier()->data, "");
+  scratch.Write("out/summary.json", R"({"data": "walk"})");
+  EXPECT_EQ(RunFolder(scratch / "out").Earlier()->data, "walk");
+  scratch.Write("out/trajectory.txt", "");
+  EXPECT_FALSE(RunFolder(scratch / "out").Earlier());
+}
+
 TEST(RunFolder, RefusesFilesThatNoRunWrote) {
   const ScratchFolder scratch;
   WriteRun(scratch / "out", {"trajectory.txt"}, "old");
