@@ -28,8 +28,8 @@ bool IsFile(const fs::path& path) {
 }
 
 fs::path GroundTruthFile(const fs::path& path) {
+  CheckExists(path, "file or folder");
   std::error_code error;
-  if (!fs::exists(path, error)) throw InputError(path.string() + ": no such file or folder");
   if (!fs::is_directory(path, error)) return path;
   const fs::path euroc = fs::path("state_groundtruth_estimate0") / "data.csv";
   for (const fs::path& name : {"mav0" / euroc, euroc, fs::path("groundtruth.txt")}) {

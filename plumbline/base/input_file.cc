@@ -46,12 +46,19 @@ std::string KindOf(const fs::path& path) {
   }
 }
 
-std::string ReadInputFile(const fs::path& path, std::uint64_t largest) {
+void CheckExists(const fs::path& path, std::string_view what) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) throw InputError(path.string() + ": no such file");
+  if (status.type() == fs::file_type::not_found) {
+    throw InputError(fmt::format("{}: no such {}", path.string(), what));
+  }
   if (error) throw InputError(path.string() + ": cannot be read: " + error.message());
-  if (!fs::is_regular_file(status)) {
+}
+
+std::string ReadInputFile(const fs::path& path, std::uint64_t largest) {
+  CheckExists(path);
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) {
     throw InputError(path.string() + ": expected a file, found " + KindOf(path));
   }
   // Some file systems tell no sizes, so that the bytes that were read are counted.

@@ -84,8 +84,8 @@ namespace {
 // OpenDataset before PrepareFrames, but for videos and folders of images: these know how their
 // images ask to be turned, and are prepared already.
 std::unique_ptr<Dataset> OpenByFormat(const fs::path& path, const DatasetOptions& options) {
+  CheckExists(path, "file or folder");
   std::error_code error;
-  if (!fs::exists(path, error)) throw InputError(path.string() + ": no such file or folder");
   const bool folder = fs::is_directory(path, error);
   if (!folder && !fs::is_regular_file(path, error)) {
     throw InputError(path.string() + ": expected a folder or a file, found " + KindOf(path));

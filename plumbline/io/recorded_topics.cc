@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -228,18 +229,26 @@ std::vector<const RecordedTopic*> Named(const RecordedTopics& topics,
 
 void CheckThereAreImages(const RecordedTopics& topics) {
   if (!topics.images.empty()) return;
-  std::vector<std::string> types;
+  std::set<std::string> types, without;
   constexpr std::size_t kMost = 20;
   for (const Channel& channel : topics.file->channels()) {
-    if (types.size() < kMost) types.push_back(Printable(channel.type));
+    const auto form = FormOf(channel);
+    if (form && form->kind != MessageKind::kCalibration) {
+      without.insert(Printable(channel.topic));
+    } else if (types.size() < kMost) {
+      types.insert(Printable(channel.type));
+    }
   }
-  std::sort(types.begin(), types.end());
-  types.erase(std::unique(types.begin(), types.end()), types.end());
+  std::string found = types.empty() ? "no messages" : fmt::format("{}", fmt::join(types, ", "));
+  if (!without.empty()) {
+    found = fmt::format("no message of the topics of images {}", fmt::join(without, ", "));
+  }
+  for (const std::string& note : topics.notes) found += "; " + note;
   throw InputError(
       fmt::format("{}: expected images (sensor_msgs/Image or CompressedImage, foxglove.RawImage or "
                   "CompressedImage), found {}",
                   topics.file->path().string(),
-                  types.empty() ? "no messages" : fmt::format("{}", fmt::join(types, ", "))));
+                  found));
 }
 
 using Topics = std::vector<const RecordedTopic*>;

@@ -92,8 +92,14 @@ void TakeListed(const fs::path& folder,
                 const std::vector<std::string>& listed,
                 std::set<std::string> names,
                 Rosbag2Files& found) {
+  std::set<std::string> seen;
   for (const std::string& name : listed) {
     std::string there = Unpacked(name);
+    if (!seen.insert(there).second) {
+      found.notes.push_back(fmt::format("{}: metadata.yaml lists it more than once; it counts once",
+                                        (folder / Printable(there)).string()));
+      continue;
+    }
     if (!names.contains(there)) there += kPacked;
     if (names.erase(there) == 0) {
       found.notes.push_back(fmt::format("{}, which metadata.yaml lists, does not exist",
@@ -148,7 +154,10 @@ Rosbag2Files FindRosbag2Files(const fs::path& path) {
   }
   if (found.files.empty()) {
     if (names.empty()) {
-      throw InputError(path.string() + ": expected files .db3 or .mcap of ros2 bag, found none");
+      const std::string why =
+          without.empty() ? fmt::format("{}", fmt::join(found.notes, "; ")) : without;
+      throw InputError(fmt::format(
+          "{}: expected files .db3 or .mcap of ros2 bag, found none: {}", path.string(), why));
     }
     found = {};
     if (without.empty()) without = metadata.string() + " lists none of the files";

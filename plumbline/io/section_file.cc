@@ -5,6 +5,7 @@
 #include "plumbline/base/byte_stream.h"
 #include "plumbline/base/crc32.h"
 #include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -72,8 +73,8 @@ void SectionWriter::Commit() { file_.Commit(Durability::kPower); }
 
 SectionReader::SectionReader(const std::filesystem::path& path, std::size_t preamble_bytes)
     : source_(path.string()) {
+  CheckExists(path);
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) throw InputError(source_ + ": no such file");
   if (!std::filesystem::is_regular_file(path, error)) {
     throw InputError(source_ + ": expected a file, found something else");
   }

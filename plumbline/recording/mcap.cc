@@ -51,6 +51,7 @@ class McapReader {
     try {
       ReadRecords();
     } catch (const InputError& error) {
+      if (file_->channels().empty()) throw;  // nothing comes before
       file_->AddNote(std::string(error.what()) + "; what comes before is read");
     }
     return std::move(file_);

@@ -35,8 +35,8 @@ std::optional<Expected<std::vector<std::uint8_t>, std::string>> UnpackedMessage(
 }
 
 void CheckIsFile(const std::filesystem::path& path) {
+  CheckExists(path);
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) throw InputError(path.string() + ": no such file");
   if (!std::filesystem::is_regular_file(path, error)) {
     throw InputError(path.string() + ": expected a file, found " + KindOf(path));
   }

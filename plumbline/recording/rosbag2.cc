@@ -36,8 +36,14 @@ std::unique_ptr<Recording> ReadPart(const fs::path& file, const MessageSink& sin
     fault = UnpackZstdFile(file, opened);
   }
   // The unpacked file goes with its folder here and is open until its messages have been read.
-  std::unique_ptr<Recording> part =
-      IsMcap(opened, file) ? ReadMcapPart(opened, sink, file) : ReadSqliteBag(opened, sink, file);
+  std::unique_ptr<Recording> part;
+  try {
+    part =
+        IsMcap(opened, file) ? ReadMcapPart(opened, sink, file) : ReadSqliteBag(opened, sink, file);
+  } catch (const InputError&) {
+    if (fault) throw InputError(file.string() + ": " + *fault);
+    throw;
+  }
   if (fault) part->AddNote(file.string() + ": " + *fault + "; what comes before is read");
   return part;
 }

@@ -149,6 +149,7 @@ void TakeJournalIn(const fs::path& copy) {
 
 // What shows that a file was cut short.
 struct Cut {
+  bool nothing = false;         // it has no bytes
   bool short_of_pages = false;  // it has fewer bytes than the pages that its header counts
   bool inside_a_page = false;   // its last page, which SQLite fills up with zeros, is not whole
 };
@@ -156,7 +157,9 @@ struct Cut {
 Cut CutOf(const fs::path& path) {
   std::array<unsigned char, 32> header{};
   std::ifstream file(path, std::ios::binary);
-  if (!file.read(reinterpret_cast<char*>(header.data()), header.size())) return {true, true};
+  if (!file.read(reinterpret_cast<char*>(header.data()), header.size())) {
+    return {file.gcount() == 0, true, true};
+  }
   const auto number = [&](std::size_t at, std::size_t size) {
     std::uint64_t value = 0;
     for (std::size_t i = at; i < at + size; ++i) value = value << 8U | header[i];
@@ -165,7 +168,7 @@ Cut CutOf(const fs::path& path) {
   const std::uint64_t page = number(16, 2) == 1 ? 65536 : number(16, 2);
   std::error_code error;
   const std::uintmax_t size = fs::file_size(path, error);
-  return {number(28, 4) * page > size, page == 0 || size % page != 0};
+  return {false, number(28, 4) * page > size, page == 0 || size % page != 0};
 }
 
 class SqliteBag : public Recording {
@@ -226,6 +229,7 @@ class SqliteBag : public Recording {
     }
     if (held_) rows_.pop_back();
     held_.reset();
+    if (rows_.empty()) NoteOfNoTopic();
     by_row_ = Prepared("SELECT data FROM messages WHERE rowid = ?");
     if (damaged) {
       AddNote(
@@ -250,10 +254,12 @@ class SqliteBag : public Recording {
  private:
   [[noreturn]] void FailToRead() const {
     const int status = sqlite3_errcode(database_.get());
-    const bool other = status == SQLITE_ERROR;
-    const char* found = status == SQLITE_NOTADB ? "another file, or one that is damaged"
-                        : other                 ? "an SQLite file without them"
-                                                : "damage, or a file that ends early";
+    const bool cut = cut_.short_of_pages || cut_.inside_a_page;
+    const char* found = cut_.nothing              ? "an empty file"
+                        : status == SQLITE_NOTADB ? "another file, or one that is damaged"
+                        : cut                     ? "a file that ends early"
+                        : status == SQLITE_ERROR  ? "an SQLite file without them"
+                                                  : "damage";
     throw InputError(path().string() +
                      ": expected the tables topics and messages of a ROS 2 bag, found " + found);
   }
@@ -274,6 +280,22 @@ class SqliteBag : public Recording {
       channel_of_topic_[topic] = AddChannel(std::move(channel));
     }
     if (status != SQLITE_DONE) FailToRead();
+  }
+
+  // Notes how many messages have a topic that is not described.
+  void NoteOfNoTopic() {
+    const Statement rows = Prepared(
+        "SELECT rowid FROM messages WHERE topic_id NOT IN (SELECT id FROM topics) ORDER BY rowid");
+    std::int64_t messages = 0;
+    for (std::int64_t last = -1; sqlite3_step(rows.get()) == SQLITE_ROW; ++messages) {
+      const std::int64_t row = sqlite3_column_int64(rows.get(), 0);
+      if (row <= last) break;  // as in TakeRows
+      last = row;
+    }
+    if (messages == 0) return;
+    AddNote(fmt::format("{}: {} messages have a topic_id that the table topics does not list",
+                        path().string(),
+                        messages));
   }
 
   // Takes rows, and sets `last` to the number of the last one. Returns false at a fault.

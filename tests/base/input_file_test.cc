@@ -39,6 +39,9 @@ TEST(ReadInputFile, RefusesWhatIsNoFile) {
   EXPECT_EQ(ErrorOf("/dev/zero"), "/dev/zero: expected a file, found a device");
   const std::filesystem::path file = folder.Write("file", "");
   EXPECT_EQ(ErrorOf(file / "below"), (file / "below").string() + ": no such file");
+  std::filesystem::create_symlink("round", folder / "round");
+  EXPECT_EQ(ErrorOf(folder / "round"),
+            (folder / "round").string() + ": cannot be read: Too many levels of symbolic links");
 }
 
 TEST(ReadInputFile, RefusesFilesThatAreTooLarge) {

@@ -44,6 +44,20 @@ TEST(FindRosbag2Files, TakesThoseOfTheMetadataInItsOrder) {
                           HasSubstr("metadata.yaml does not list c.mcap: left out")));
 }
 
+TEST(FindRosbag2Files, SaysWhatTheMetadataHasWrong) {
+  const ScratchFolder folder;
+  folder.Write("b_0.db3", "x");
+  folder.Write("metadata.yaml", Rosbag2Metadata({"b_0.db3", "b_0.db3.zstd"}));
+  EXPECT_THAT(NamesOf(folder.path()), ElementsAre("b_0.db3"));
+  EXPECT_THAT(FindRosbag2Files(folder.path()).notes,
+              ElementsAre((folder / "b_0.db3").string() +
+                          ": metadata.yaml lists it more than once; it counts once"));
+  std::filesystem::remove(folder / "b_0.db3");
+  EXPECT_THAT(MessageOf([&] { FindRosbag2Files(folder.path()); }),
+              HasSubstr("found none: " + (folder / "b_0.db3").string() +
+                        ", which metadata.yaml lists, does not exist"));
+}
+
 TEST(FindRosbag2Files, GoesByNamesWithoutMetadata) {
   const ScratchFolder folder;
   for (const char* name : {"b_10.db3", "b_9.db3", "b_9.db3.zstd", "b_9.db3-wal"}) {
@@ -159,6 +173,30 @@ TEST(Rosbag2, LeavesOutBrokenMessages) {
   { Rosbag2Writer(folder / "z.db3").Add("/imu", "sensor_msgs/msg/Imu", 2, "something"); }
   EXPECT_THAT(MessageOf([&] { OpenDataset(folder / "z.db3"); }),
               HasSubstr("found sensor_msgs/msg/Imu"));
+}
+
+TEST(Rosbag2, SaysWhyNoImageIsFound) {
+  const ScratchFolder folder;
+  const auto message = [&](const std::string& name) {
+    return MessageOf([&] { OpenDataset(folder / name); });
+  };
+  {
+    Rosbag2Writer bag(folder / "x.db3");
+    Add(bag, "/c/image", Gray(kSecond, 'a'));
+    bag.Do("UPDATE messages SET topic_id = 99");
+  }
+  EXPECT_THAT(
+      message("x.db3"),
+      testing::EndsWith("found no message of the topics of images /c/image; " +
+                        (folder / "x.db3").string() +
+                        ": 1 messages have a topic_id that the table topics does not list"));
+  McapWriter mcap;
+  const std::string whole = mcap.Finish();
+  folder.Write("walk/walk_0.mcap", whole.substr(0, 8) + std::string(200, '?'));
+  folder.Write("walk/metadata.yaml", Rosbag2Metadata({"walk_0.mcap"}));
+  EXPECT_THAT(message("walk"), HasSubstr("walk_0.mcap: byte 8: expected "));
+  std::filesystem::create_symlink("round.db3", folder / "round.db3");
+  EXPECT_THAT(message("round.db3"), HasSubstr("round.db3: cannot be read: Too many levels"));
 }
 
 }  // namespace rosbag2_files_test

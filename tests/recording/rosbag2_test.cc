@@ -121,5 +121,20 @@ TEST(ReadRosbag2, ReadsTheBeginningOfAPackedFileThatWasCutShort) {
                           HasSubstr("x.db3.zstd: the packed data ends early")));
 }
 
+TEST(ReadRosbag2, SaysThatAPackedFileIsDamaged) {
+  const ScratchFolder folder;
+  WriteDb3(folder, "x.db3", "/a", "one");
+  PackFile(folder / "x.db3");
+  const std::string packed = Contents(folder / "x.db3.zstd");
+  const auto damaged = folder.Write("y.db3.zstd", packed.substr(0, 6) + std::string(99, '?'));
+  EXPECT_EQ(MessageOf([&] { Read({damaged}); }), damaged.string() + ": the packed data is damaged");
+  const auto cut = folder.Write("z.db3.zstd", packed.substr(0, 6));
+  EXPECT_EQ(MessageOf([&] { Read({cut}); }), cut.string() + ": the packed data ends early");
+  const auto other = folder.Write("a.db3.zstd", "no packed data at all");
+  EXPECT_EQ(MessageOf([&] { Read({other}); }), other.string() + ": the packed data is damaged");
+  const auto empty = folder.Write("b.db3.zstd", "");
+  EXPECT_EQ(MessageOf([&] { Read({empty}); }), empty.string() + ": the packed data ends early");
+}
+
 }  // namespace rosbag2_test
 }  // namespace plumbline

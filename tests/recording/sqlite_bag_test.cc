@@ -194,7 +194,19 @@ TEST(ReadSqliteBag, SaysWhatIsWrong) {
   EXPECT_THAT(message(folder.Write("x.db3", "something else, which is long enough")),
               HasSubstr("x.db3: expected the tables topics and messages of a ROS 2 bag, found "
                         "another file"));
-  EXPECT_THAT(message(folder.Write("empty.db3", "")), HasSubstr("an SQLite file without them"));
+  EXPECT_THAT(message(folder.Write("empty.db3", "")), HasSubstr("found an empty file"));
+  {
+    Rosbag2Writer bag(folder / "long.db3");
+    AddThree(bag);
+  }
+  const std::string whole = Contents(folder / "long.db3");
+  for (const std::size_t size : {60, 600, 4096}) {
+    EXPECT_THAT(
+        message(folder.Write("cut.db3", whole.substr(0, size))),
+        HasSubstr("cut.db3: expected the tables topics and messages of a ROS 2 bag, found a "
+                  "file that ends early"))
+        << size;
+  }
   { Rosbag2Writer(folder / "other.db3").Do("DROP TABLE messages"); }
   EXPECT_THAT(message(folder / "other.db3"), HasSubstr("found an SQLite file without them"));
 }
