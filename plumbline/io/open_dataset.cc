@@ -32,9 +32,11 @@ namespace fs = std::filesystem;
 
 DatasetFormat DetectFormat(const fs::path& path) {
   if (const std::optional<DatasetFormat> format = FindFormat(path)) return *format;
-  throw InputError(path.string() +
-                   ": expected a EuRoC folder (mav0/), a TUM or ICL folder (rgb.txt), a KITTI "
-                   "sequence (image_0/, calib.txt) or a folder of images, found none of them");
+  throw InputError(
+      path.string() +
+      ": expected a EuRoC folder (mav0/), a TUM or ICL folder (rgb.txt), a KITTI "
+      "sequence (image_0/, calib.txt) or a drive of KITTI raw (image_00/timestamps.txt), "
+      "a folder of ros2 bag (.db3, .mcap) or a folder of images, found none of them");
 }
 
 // Returns the format of a file by its first bytes, or by its name where these are damaged.

@@ -79,7 +79,9 @@ TEST(BadInput, FilesThatAreMissing) {
           fs::create_directories(folder / "sequence");
         },
         "sequence: expected a EuRoC folder (mav0/), a TUM or ICL folder (rgb.txt), a KITTI "
-        "sequence (image_0/, calib.txt) or a folder of images, found none of them"},
+        "sequence (image_0/, calib.txt) or a drive of KITTI raw (image_00/timestamps.txt), a "
+        "folder "
+        "of ros2 bag (.db3, .mcap) or a folder of images, found none of them"},
        {"no calibration",
         Remove("sequence/mav0/cam0/sensor.yaml"),
         "mav0/cam0/sensor.yaml: no such file"},

@@ -162,7 +162,11 @@ TEST(OpenDataset, NamesFaultsOfImageFolders) {
   ExpectErrors([](const ScratchFolder& folder) { folder.Write("1.png", Png(8, 6, 1)); },
                {{"camera.yaml", std::nullopt, "expected a calibration, found none"},
                 {"camera.yaml", "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\n", "expected rate_hz"},
-                {"1.png", std::nullopt, "expected a EuRoC folder (mav0/), a TUM or ICL folder"}});
+                {"1.png",
+                 std::nullopt,
+                 "expected a EuRoC folder (mav0/), a TUM or ICL folder (rgb.txt), a KITTI sequence "
+                 "(image_0/, calib.txt) or a drive of KITTI raw (image_00/timestamps.txt), a "
+                 "folder of ros2 bag (.db3, .mcap) or a folder of images, found none of them"}});
 }
 
 TEST(OpenDataset, ANumberComesOnceInAFolderOfImages) {
