@@ -60,6 +60,12 @@ std::vector<TextRow> ReadRows(const std::filesystem::path& path, char separator)
     const std::string_view content = Trim(rest.substr(0, end));
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     if (content.empty() || content.front() == '#') continue;
+    if (content.size() > kLongestLine) {
+      FailAt(path,
+             line,
+             fmt::format("a line of at most {} bytes", kLongestLine),
+             fmt::format("one of {}", content.size()));
+    }
     rows.push_back({line, Split(content, separator)});
   }
   return rows;

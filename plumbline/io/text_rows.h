@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -21,7 +22,8 @@ struct TextRow {
 
 // Returns the rows of a text file without empty lines and comments (from '#' at the start of a
 // line). Fields end at `separator`, or at any run of blanks where that is ' '. Line ends may be CR
-// LF.
+// LF. Fails (FailAt) at a row of more than kLongestLine bytes.
+constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 std::vector<TextRow> ReadRows(const std::filesystem::path& path, char separator);
 
 // Throws InputError "path:line: expected ..., found ...".

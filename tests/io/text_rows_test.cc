@@ -111,6 +111,16 @@ TEST(PlaceFields, AreFiniteAndNotTooFar) {
             "a.txt:3: expected a coordinate within 1e+09 of 0 in column 4, found '1e308'");
 }
 
+TEST(ReadRows, RefusesALineWithoutEnd) {
+  const ScratchFolder folder;
+  const std::string longest(kLongestLine, '1');
+  EXPECT_EQ(ReadRows(folder.Write("a.txt", "1\n" + longest + "\n#" + longest + "\n"), ' ').size(),
+            2U);
+  const auto file = folder.Write("b.txt", "1\n" + longest + " 2\n");
+  EXPECT_EQ(MessageOf([&] { ReadRows(file, ' '); }),
+            file.string() + ":2: expected a line of at most 1048576 bytes, found one of 1048578");
+}
+
 TEST(ReadRows, DropsCommentsBlanksAndCarriageReturns) {
   const ScratchFolder folder;
   const auto file = folder.Write("a.csv", "\xEF\xBB\xBF# head\r\n\r\n 1 , two words\r\n#x\n3,\n4");
