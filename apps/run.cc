@@ -6,6 +6,7 @@
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/checkpoint_io.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/image_dataset.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/io/reversed_dataset.h"
@@ -282,6 +283,34 @@ RunFrames OpenLive(const CommandLine& line, const RunSetup& setup) {
   return input;
 }
 
+// What a run is told about beside its results, in one line.
+void Say(const std::string& note) {
+  std::cerr << "plumbline: " << Printable(note, kLongestMessage) << '\n';
+}
+
+// Opens a recording. Where it lacks the sensor of the preset, the message names the preset.
+std::unique_ptr<Dataset> OpenRecorded(const CommandLine& line) {
+  try {
+    return OpenDataset(line.Positional(0), ReadDatasetOptions(line));
+  } catch (const MissingSensor& error) {
+    const auto preset = line.Value("--preset");
+    if (!preset || line.Has("--sensor")) throw;
+    throw InputError(fmt::format("--preset {}: {}", *preset, error.what()));
+  }
+}
+
+// Says what of the data the preset does not use.
+void SayUnused(const CommandLine& line, const Dataset& dataset) {
+  const auto preset = line.Value("--preset");
+  if (!preset || line.Has("--sensor") || FindPreset(*preset).needs_stereo) return;
+  for (const SensorKind sensor : dataset.info().available) {
+    if (sensor == SensorKind::kMono) continue;
+    Say(fmt::format("--preset {} is for one camera: {} is not used",
+                    *preset,
+                    sensor == SensorKind::kStereo ? "the right image" : "depth"));
+  }
+}
+
 RunFrames OpenInput(const CommandLine& line, const RunSetup& setup) {
   if (LiveKindOf(line.Positional(0))) return OpenLive(line, setup);
   if (line.Has("--side-by-side")) {
@@ -293,7 +322,7 @@ RunFrames OpenInput(const CommandLine& line, const RunSetup& setup) {
   input.save_every_s = setup.save_every_s;
   input.checkpoint = setup.checkpoint;
   input.description = DescribeInput(line);
-  auto dataset = OpenDataset(line.Positional(0), ReadDatasetOptions(line));
+  auto dataset = OpenRecorded(line);
   input.frames = ChooseFrames(line, *dataset);
   if (line.Has("--reverse")) {
     dataset = PlayedBackwards(std::move(dataset), std::move(input.frames));
@@ -389,11 +418,6 @@ void CheckFilesApart(const RunSetup& setup, std::vector<RunInput> inputs) {
   }
   CheckFileApart("--checkpoint", *setup.checkpoint, inputs);
   CheckReplacesItsKind("--checkpoint", *setup.checkpoint, {"a checkpoint", kCheckpointMagic});
-}
-
-// What a run is told about beside its results, in one line.
-void Say(const std::string& note) {
-  std::cerr << "plumbline: " << Printable(note, kLongestMessage) << '\n';
 }
 
 // Before anything is done: that there is somewhere to listen, and to record to.
@@ -514,6 +538,7 @@ int RunCommand(std::span<const std::string> arguments) {
   OpenViewer(line, setup, system, input);
   WriteOptions(setup, folder);
   IgnoreBrokenPipes();
+  if (!setup.quiet) SayUnused(line, *input.dataset);
   SayBefore(*input.dataset, folder, map_notes, setup.quiet);
   CatchStopSignals();
   KeptViews views(input);

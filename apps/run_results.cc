@@ -26,6 +26,24 @@
 namespace plumbline {
 namespace {
 
+// Why frames have no pose (FrameRecord::reason), in words.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kReasonsInWords = {
+    {{"too_few_features", "too few points and lines are seen, or too few with depth"},
+     {"too_few_matches", "too little of what was seen before is seen again"},
+     {"too_few_inliers", "what is matched contradicts itself"},
+     {"pose_not_observable", "what is seen leaves a direction open"},
+     {"not_relocalized", "the place is not found in the map"},
+     {"map_withdrawn", "the map proved wrong"},
+     {"not_mapped", "mapping was late"},
+     {"dropped", "there was no time"},
+     {"image_unreadable", "the image cannot be read"},
+     {"image_size", "the image has another size than the calibration"},
+     {"source_lost", "the source gives no images"},
+     {"too_little_parallax", "the camera moves too little sideways"},
+     {"ambiguous", "a plane, or motion straight ahead, has two interpretations"},
+     {"too_few_frames", "too few frames in a row can be followed for a start"},
+     {"inaccurate", "what is seen does not fit or is too inaccurate for a start"}}};
+
 class ResultWriter {
  public:
   ResultWriter(const FinishedRun& run, RunFolder& folder) : run_(run), folder_(folder) {}
@@ -174,7 +192,14 @@ std::optional<std::string> WhyNoPose(const FrameLog& frames, bool no_depth) {
       });
   std::string why = "no frame has a pose";
   if (most != counts.end()) {
-    why += fmt::format(": {} for {} of {} frames", most->first, most->second, frames.size());
+    const auto known =
+        std::find_if(kReasonsInWords.begin(), kReasonsInWords.end(), [&](const auto& reason) {
+          return reason.first == most->first;
+        });
+    const std::string words =
+        known == kReasonsInWords.end() ? "" : fmt::format("{} ", known->second);
+    why +=
+        fmt::format(": {}({}) in {} of {} frames", words, most->first, most->second, frames.size());
   }
   return no_depth ? why + "; depth is zero everywhere" : why;
 }

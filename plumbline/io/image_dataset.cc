@@ -290,10 +290,10 @@ DatasetInfo DescribeDataset(const fs::path& path,
       info.available.end()) {
     std::vector<std::string> names;
     for (const SensorKind kind : info.available) names.push_back(SensorName(kind));
-    throw InputError(fmt::format("{}: expected data for {}, found data for {} only",
-                                 path.string(),
-                                 SensorName(info.sensor),
-                                 fmt::join(names, ", ")));
+    throw MissingSensor(fmt::format("{}: expected data for {}, found data for {} only",
+                                    path.string(),
+                                    SensorName(info.sensor),
+                                    fmt::join(names, ", ")));
   }
   return info;
 }

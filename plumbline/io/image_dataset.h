@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/error.h"
 #include "plumbline/io/camera_file.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/stamp_order.h"
@@ -64,8 +65,14 @@ void NoteBits(std::optional<int> brightest, DatasetInfo& info);
 // format has.
 void NoteRate(DatasetInfo& info);
 
+// The data lacks the sensor that is asked for.
+class MissingSensor : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 // Fills in name, path, format, available and sensor: the sensor asked for, or the richest one.
-// Throws InputError when the data does not offer it.
+// Throws MissingSensor when the data does not offer it.
 DatasetInfo DescribeDataset(const std::filesystem::path& path,
                             DatasetFormat format,
                             std::vector<SensorKind> available,

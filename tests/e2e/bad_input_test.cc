@@ -575,7 +575,9 @@ TEST(BadInput, ARunWithoutAnyPoseFails) {
   }
   const Outcome dark = run("dark");
   EXPECT_EQ(dark.code, 1);
-  EXPECT_THAT(dark.err, HasSubstr("plumbline: no frame has a pose: too_few_features for 6 of 6"));
+  EXPECT_THAT(dark.err,
+              HasSubstr("plumbline: no frame has a pose: too few points and lines are seen, or too "
+                        "few with depth (too_few_features) in 6 of 6 frames"));
   EXPECT_THAT(dark.out, HasSubstr("frames 6: 0 tracked"));
   EXPECT_TRUE(fs::exists(folder / "dark/frames.csv"));
   EXPECT_TRUE(fs::exists(folder / "dark/summary.json"));
@@ -591,7 +593,26 @@ TEST(BadInput, ARunWithoutAnyPoseFails) {
   }
   const Outcome gone = run("gone");
   EXPECT_EQ(gone.code, 1);
-  EXPECT_THAT(gone.err, HasSubstr("no frame has a pose: image_unreadable for 5 of 6 frames\n"));
+  EXPECT_THAT(
+      gone.err,
+      HasSubstr(
+          "no frame has a pose: the image cannot be read (image_unreadable) in 5 of 6 frames\n"));
+}
+
+TEST(BadInput, ACameraThatStandsStillIsTold) {
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 8);
+  for (int i = 1; i < 8; ++i) {
+    fs::copy_file(folder / kLeftImage,
+                  folder / fmt::format("sequence/mav0/cam0/data/{}.png", i),
+                  fs::copy_options::overwrite_existing);
+  }
+  const Outcome still = RunProgram(
+      folder, "run " + Quoted(sequence) + " --sensor mono --out " + Quoted(folder / "out"));
+  EXPECT_EQ(still.code, 1);
+  EXPECT_THAT(still.err,
+              HasSubstr("plumbline: no frame has a pose: the camera moves too little sideways "
+                        "(too_little_parallax) in "));
 }
 
 TEST(BadInput, DepthThatIsZeroEverywhereIsTold) {
@@ -618,8 +639,7 @@ TEST(BadInput, DepthThatIsZeroEverywhereIsTold) {
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.err, HasSubstr("depth is zero everywhere in the first 10 depth images"));
   EXPECT_THAT(outcome.err,
-              HasSubstr("no frame has a pose: too_few_features for 12 of 12 frames; depth is zero "
-                        "everywhere\n"));
+              HasSubstr("(too_few_features) in 12 of 12 frames; depth is zero everywhere\n"));
 }
 
 }  // namespace

@@ -116,23 +116,28 @@ TEST(Preset, RepeatsItself) {
 
 // Before anything is written.
 TEST(Preset, SaysWhichSensorItNeeds) {
-  const auto data = FindData("icl/office_kt3_first600");
+  const auto data = FindData("tum/rgbd_dataset_freiburg1_floor_first90");
   if (!data) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
   const ScratchFolder folder;
-  const Outcome outcome =
-      RunProgram(folder,
-                 "run " + Quoted(*data) + " --camera icl_nuim --preset good-line-cutting --out " +
-                     Quoted(folder / "run"));
+  const Outcome outcome = RunProgram(
+      folder,
+      "run " + Quoted(*data) + " --preset good-line-cutting --out " + Quoted(folder / "run"));
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.err, testing::HasSubstr("stereo"));
+  EXPECT_THAT(outcome.err, testing::StartsWith("plumbline: --preset good-line-cutting: "));
+  EXPECT_THAT(outcome.err,
+              testing::HasSubstr("expected data for stereo, found data for rgbd, mono only\n"));
   EXPECT_FALSE(std::filesystem::exists(folder / "run"));
-  const Outcome other = RunProgram(folder,
-                                   "run " + Quoted(*data) +
-                                       " --camera icl_nuim --preset rippl --sensor stereo --out " +
-                                       Quoted(folder / "run"));
+  const Outcome other = RunProgram(
+      folder,
+      "run " + Quoted(*data) + " --preset rippl --sensor stereo --out " + Quoted(folder / "run"));
   EXPECT_EQ(other.code, 2);
   EXPECT_THAT(other.err,
               testing::HasSubstr("--preset rippl: expected --sensor mono, found stereo"));
+  const Outcome one = RunProgram(
+      folder, "run " + Quoted(*data) + " --preset rippl --to 2 --out " + Quoted(folder / "run"));
+  EXPECT_THAT(
+      one.err,
+      testing::HasSubstr("plumbline: --preset rippl is for one camera: depth is not used\n"));
 }
 
 }  // namespace
