@@ -77,6 +77,8 @@ void CheckOutput(std::string_view option,
                  const std::filesystem::path& output,
                  std::span<const std::filesystem::path> inputs,
                  const FileKind& kind) {
+  if (output == "-")
+    throw InputError(fmt::format("{}: expected a file or folder, found -", option));
   std::error_code error;
   for (const std::filesystem::path& input : inputs) {
     if (!std::filesystem::equivalent(output, input, error)) continue;

@@ -40,7 +40,7 @@ void CheckKeepsResults(std::string_view option, const std::filesystem::path& fil
 
 // Throws InputError, which names the option, where writing `output` would take the place of what is
 // read (by whatever name: reading it is no leave to write over it), of a result of a run, or of a
-// file of another kind. Touches nothing.
+// file of another kind, and for "-", which elsewhere means standard output. Touches nothing.
 void CheckOutput(std::string_view option,
                  const std::filesystem::path& output,
                  std::span<const std::filesystem::path> inputs,

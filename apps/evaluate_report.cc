@@ -53,10 +53,12 @@ void AddRow(std::ostringstream& table,
             const std::string& name,
             int width,
             const std::optional<ErrorStatistics>& statistics,
-            double factor) {
+            double factor,
+            const RelativeWindow& window) {
   table << std::left << std::setw(width) << name << std::right << std::setprecision(6);
   if (!statistics) {
-    table << "  no pair of poses spans the window\n";
+    table << "  no pair of poses spans the window"
+          << (window.frames == 0 ? "; --delta 1f compares neighbouring poses\n" : "\n");
     return;
   }
   for (const double value : {statistics->rmse,
@@ -295,9 +297,10 @@ std::string EvaluationTable(const Evaluation& evaluation) {
   AddOffset(table, evaluation);
   table << "window      " << WindowName(evaluation.options.window) << "\n\n";
   AddHead(table, "", kErrorName);
-  AddRow(table, "ATE [m]", kErrorName, error.ate, 1);
-  AddRow(table, "RPE [m/s]", kErrorName, error.rpe, 1);
-  AddRow(table, "ROE [deg/s]", kErrorName, error.roe, kDegrees);
+  const RelativeWindow& window = evaluation.options.window;
+  AddRow(table, "ATE [m]", kErrorName, error.ate, 1, window);
+  AddRow(table, "RPE [m/s]", kErrorName, error.rpe, 1, window);
+  AddRow(table, "ROE [deg/s]", kErrorName, error.roe, kDegrees, window);
   if (evaluation.lines) table << LineMapTable(evaluation);
   return table.str();
 }
@@ -332,7 +335,7 @@ std::string EvaluationsTable(const std::vector<Evaluation>& evaluations) {
     table << '\n';
     AddHead(table, error, width);
     for (const Evaluation& each : evaluations) {
-      AddRow(table, each.name, width, each.error.*member, factor);
+      AddRow(table, each.name, width, each.error.*member, factor, each.options.window);
     }
   };
   add("ATE [m]", &TrajectoryError::ate, 1);

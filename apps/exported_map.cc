@@ -14,6 +14,7 @@
 #include "plumbline/report/run_files.h"
 
 #include "apps/command_line.h"
+#include "apps/counted.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -151,12 +152,12 @@ std::string ExportColmap(const SavedMap& saved, const MapExport& wanted, const S
   folder.Commit();
   const std::size_t left_out = saved.map.points().size() - model.points.size();
   return fmt::format(
-      "{} images{}, {} points{}, {} lines",
-      model.images.size(),
+      "{}{}, {}{}, {}",
+      Counted(model.images.size(), "image"),
       wanted.images != nullptr ? "" : " (not written; --images PATH writes them)",
-      model.points.size(),
+      Counted(model.points.size(), "point"),
       left_out == 0 ? std::string() : fmt::format(" ({} of one image left out)", left_out),
-      saved.map.lines().size());
+      Counted(saved.map.lines().size(), "line"));
 }
 
 std::string ExportNerfstudio(const SavedMap& saved,
@@ -170,8 +171,9 @@ std::string ExportNerfstudio(const SavedMap& saved,
   WriteNerfstudioTransforms(
       path / "transforms.json", saved, "images", names, "points.ply", wanted.others);
   folder.Commit();
-  return fmt::format(
-      "{} images, {} points", names.size() + wanted.others.size(), saved.map.points().size());
+  return fmt::format("{}, {}",
+                     Counted(names.size() + wanted.others.size(), "image"),
+                     Counted(saved.map.points().size(), "point"));
 }
 
 std::string ExportTum(const SavedMap& saved, const MapExport& wanted) {
@@ -179,8 +181,8 @@ std::string ExportTum(const SavedMap& saved, const MapExport& wanted) {
   WriteTum(wanted.out, trajectory);
   const std::size_t left_out = saved.map.keyframes().size() - trajectory.size();
   return fmt::format(
-      "{} keyframes{}",
-      trajectory.size(),
+      "{}{}",
+      Counted(trajectory.size(), "keyframe"),
       left_out == 0 ? std::string() : fmt::format(" ({} of the same times left out)", left_out));
 }
 
@@ -189,14 +191,15 @@ std::string ExportLines(const SavedMap& saved, const MapExport& wanted, const St
   if (wanted.format == ExportFormat::kPly) {
     const PointColors colors = ReadImages(saved, KeyFrameImageNames(saved.map), wanted, {}, stop);
     WritePly(wanted.out, PointPositions(saved.map), lines, ColorsInOrder(saved.map, colors));
-    return fmt::format("{} points, {} lines", saved.map.points().size(), lines.size());
+    return fmt::format(
+        "{}, {}", Counted(saved.map.points().size(), "point"), Counted(lines.size(), "line"));
   }
   if (wanted.format == ExportFormat::kObj) {
     WriteObjLines(wanted.out, lines);
   } else {
     WriteDxfLines(wanted.out, lines);
   }
-  return fmt::format("{} lines", lines.size());
+  return Counted(lines.size(), "line");
 }
 
 bool IsFolder(ExportFormat format) {

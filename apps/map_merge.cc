@@ -8,6 +8,7 @@
 
 #include "apps/command_line.h"
 #include "apps/command_outputs.h"
+#include "apps/counted.h"
 #include "apps/map_commands.h"
 #include "apps/merge_atlases.h"
 #include <array>
@@ -134,11 +135,11 @@ int MapMergeCommand(std::span<const std::string> arguments) {
   if (!request.first_from_second) PrintOverlap(merged);
   SaveAtlas(request.out, merged.saved.atlas, merged.saved.context);
   const Map& map = merged.saved.atlas.active();
-  std::cout << fmt::format("{}: {} keyframes, {} points, {} lines\n",
+  std::cout << fmt::format("{}: {}, {}, {}\n",
                            request.out,
-                           map.keyframes().size(),
-                           map.points().size(),
-                           map.lines().size());
+                           Counted(map.keyframes().size(), "keyframe"),
+                           Counted(map.points().size(), "point"),
+                           Counted(map.lines().size(), "line"));
   return 0;
 }
 

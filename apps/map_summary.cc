@@ -6,6 +6,7 @@
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/map/reprojection.h"
 
+#include "apps/counted.h"
 #include <algorithm>
 #include <system_error>
 #include <utility>
@@ -149,10 +150,10 @@ std::string MapRows(const RectifiedCamera& camera, const Map& map) {
 
 std::string OtherMapRow(const Map& map) {
   return Row(fmt::format("map {}", map.id().value),
-             fmt::format("{} keyframes, {} points, {} lines",
-                         map.keyframes().size(),
-                         map.points().size(),
-                         map.lines().size()));
+             fmt::format("{}, {}, {}",
+                         Counted(map.keyframes().size(), "keyframe"),
+                         Counted(map.points().size(), "point"),
+                         Counted(map.lines().size(), "line")));
 }
 
 }  // namespace

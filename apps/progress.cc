@@ -87,9 +87,7 @@ void Countdown::Show(std::size_t done, const std::string& note) {
 }
 
 void Progress::Show(const FrameRecord& frame) {
-  keyframes_ += frame.keyframe;
-  countdown_.Show(static_cast<std::size_t>(frame.id.value) + 1,
-                  fmt::format("{}  {} keyframes made", NameOf(frame.status), keyframes_));
+  countdown_.Show(static_cast<std::size_t>(frame.id.value) + 1, NameOf(frame.status));
 }
 
 }  // namespace plumbline

@@ -78,7 +78,6 @@ class Progress {
   void Say(const std::string& message) const { countdown_.Say(message); }
 
  private:
-  std::size_t keyframes_ = 0;
   Countdown countdown_;
 };
 

@@ -212,6 +212,7 @@ RunSetup ReadSetup(const CommandLine& line) {
   CheckOptions(setup.options);
   setup.options_yaml = table.Dump();
   setup.folder = line.Value("--out").value_or("plumbline_run");
+  if (setup.folder == "-") throw InputError("--out: expected a folder, found -");
   setup.blur = ReadBlur(line);
   setup.quiet = line.Has("--quiet");
   setup.view.access = ReadViewOptions(line, setup.quiet);

@@ -10,6 +10,7 @@
 #include "plumbline/report/overlay.h"
 #include "plumbline/report/run_files.h"
 
+#include "apps/counted.h"
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -229,17 +230,14 @@ void PrintResult(const System& system, const Dataset& dataset, const std::string
                                   system.frames().end(),
                                   [](const FrameRecord& frame) { return frame.keyframe; });
   std::cout << fmt::format(
-      "map: {} keyframes{}, {} points, {} lines{}\n",
-      counts.keyframes,
+      "map: {}{}, {}, {}{}\n",
+      Counted(counts.keyframes, "keyframe"),
       made > counts.keyframes ? fmt::format(" (of {} made)", made) : std::string(),
-      counts.points,
-      counts.lines,
+      Counted(counts.points, "point"),
+      Counted(counts.lines, "line"),
       counts.maps > 1 ? fmt::format(" (largest of {} maps)", counts.maps) : std::string());
   const auto error = CompareWithGroundTruth(system, dataset);
-  if (error && error->poses.size() < 3) {  // any two trajectories can be laid on each other
-    std::cout << fmt::format("no errors: {} of the poses has ground truth, three are needed\n",
-                             error->poses.size());
-  } else if (error) {
+  if (error) {
     const double scale = error->reference_from_estimate.scale;
     const bool mono = dataset.sensor() == SensorKind::kMono;
     std::cout << fmt::format(

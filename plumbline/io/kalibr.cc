@@ -37,6 +37,7 @@ Rigid3 RightFromLeft(const YamlSection& left, const YamlSection& right) {
 }  // namespace
 
 Calibration ReadKalibr(const YamlSection& root) {
+  if (!root.Has("cam0")) root.Fail("cam1", "expected cam0, the left camera, beside it, found none");
   Calibration calibration;
   calibration.left = ReadCamera(root.Child("cam0"));
   if (root.Has("cam1")) {

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -142,8 +143,27 @@ KeyFrameImages::KeyFrameImages(const std::filesystem::path& path,
     }
     if (!difference) difference = difference_now;
   }
-  if (difference) FailCamera(path, *difference);
+  if (difference) FailCamera(path, DifferenceAsStored(*difference, given, saved));
   CheckKeyFrames(saved);
+}
+
+// The difference of the images before they were reduced to the width of the map's, where sizes
+// differ: the size of the reduced ones is none that a user knows.
+std::string KeyFrameImages::DifferenceAsStored(const std::string& difference,
+                                               const DatasetOptions& given,
+                                               const SavedMap& saved) {
+  if (rectifier_->camera().height == saved.camera.height) return difference;
+  DatasetOptions options = AsUsedFor(saved, given);
+  options.max_width = given.max_width.value_or(std::numeric_limits<int>::max());
+  dataset_ = OpenDataset(dataset_->info().path, options);
+  const Camera& camera = dataset_->calibration().left;
+  const bool upright = saved.camera.height > saved.camera.width;
+  return fmt::format("images of {}x{} and {}x{} pixels{}",
+                     saved.camera.width,
+                     saved.camera.height,
+                     camera.width(),
+                     camera.height(),
+                     upright != (camera.height() > camera.width()) ? ", one of them turned" : "");
 }
 
 KeyFrameImages::KeyFrameImages(std::shared_ptr<const Dataset> dataset, const SavedMap& saved)

@@ -56,6 +56,9 @@ class KeyFrameImages {
   const std::filesystem::path& path() const { return dataset_->info().path; }
 
  private:
+  std::string DifferenceAsStored(const std::string& difference,
+                                 const DatasetOptions& given,
+                                 const SavedMap& saved);
   void CheckKeyFrames(const SavedMap& saved) const;
   ColorImage ReadRaw(std::int64_t stamp_ns) const;
 

@@ -68,7 +68,7 @@ function accuracyTiles() {
     const why = scene.ground_truth_fault ? "ground truth that cannot be used" : "no ground truth";
     return [tile(
         "Position error (ATE)", "–", "",
-        scene.has_ground_truth ? "no pose at a time with ground truth" : why)];
+        scene.has_ground_truth ? "fewer than three poses with ground truth" : why)];
   }
   const ate = lengthUnit(error.ate.rmse);
   const tiles = [tile(

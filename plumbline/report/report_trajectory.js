@@ -293,7 +293,7 @@ function buildError() {
     body.append(note(
         !scene.has_ground_truth ?
             withoutGroundTruth() :
-            "There is no pose at a time with ground truth, so nothing can be compared."));
+            "Fewer than three poses have ground truth at their time, so nothing can be compared."));
     return;
   }
   const errors = scene.maps.filter((map) => map.error).map((map) => map.error);

@@ -52,10 +52,13 @@ Json Accuracy(const TrajectoryError& error, SensorKind sensor, int frames) {
 }
 
 std::optional<TrajectoryError> Compare(const Trajectory& estimate, const Dataset& dataset) {
+  constexpr std::size_t kFewestPoses = 3;  // any two trajectories can be laid on each other
   if (!dataset.info().ground_truth) return std::nullopt;
-  return CompareTrajectories(dataset.info().ground_truth->OfCamera(dataset.calibration()),
-                             estimate,
-                             ErrorOptionsFor(dataset.sensor(), dataset.info().format));
+  auto error = CompareTrajectories(dataset.info().ground_truth->OfCamera(dataset.calibration()),
+                                   estimate,
+                                   ErrorOptionsFor(dataset.sensor(), dataset.info().format));
+  if (error && error->poses.size() < kFewestPoses) return std::nullopt;
+  return error;
 }
 
 Json Timing(const FrameLog& frames) {
@@ -160,7 +163,8 @@ LineMemory MeasureLineMemory(const System& system) {
 
 std::string WhyNoErrors(const DatasetInfo& info) {
   if (info.ground_truth_fault) return *info.ground_truth_fault;
-  return info.ground_truth ? "the ground truth covers no pose" : "no ground truth to compare with";
+  return info.ground_truth ? "the ground truth covers fewer than three poses"
+                           : "no ground truth to compare with";
 }
 
 std::optional<TrajectoryError> CompareWithGroundTruth(const System& system,

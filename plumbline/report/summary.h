@@ -56,8 +56,8 @@ LineMemory MeasureLineMemory(const System& system);
 std::string WhyNoErrors(const DatasetInfo& info);
 
 // Compares the final trajectory of a map, or of the main map, with the data set's ground truth:
-// SE(3) alignment, Sim(3) for mono, windows of 3 s. Returns nullopt without ground truth,
-// trajectory, or common time.
+// SE(3) alignment, Sim(3) for mono, windows of 3 s. Returns nullopt without ground truth or
+// trajectory, and where fewer than three poses have ground truth.
 std::optional<TrajectoryError> CompareWithGroundTruth(const System& system,
                                                       const Dataset& dataset,
                                                       MapId map);

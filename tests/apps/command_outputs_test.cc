@@ -41,6 +41,11 @@ TEST(CommandOutputs, ReplaceFilesOfTheirKindOnly) {
   }
 }
 
+TEST(CommandOutputs, AreNotStandardOutput) {
+  EXPECT_EQ(MessageOf([] { CheckOutput("--out", "-", {}, MapFileKind()); }),
+            "--out: expected a file or folder, found -");
+}
+
 TEST(CommandOutputs, KeepTheResultsOfARun) {
   const ScratchFolder folder;
   const auto trajectory = folder.Write("trajectory.txt", "");

@@ -168,6 +168,22 @@ TEST(Evaluate, CoverageIsNeverMoreThanAll) {
   EXPECT_THAT(Contents(json), HasSubstr("\"coverage\": null"));
 }
 
+TEST(Evaluate, PointsAtAShorterWindowWhereNoneIsSpanned) {
+  const ScratchFolder folder;
+  const auto sequence = WriteEuroc(folder).string();
+  const auto estimate = folder.Write("trajectory.txt", kTum).string();
+  const auto table = [&](const std::string& window) {
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(EvaluateMessage({sequence, estimate, "--align", "none", "--delta", window}),
+              "no error");
+    return testing::internal::GetCapturedStdout();
+  };
+  EXPECT_THAT(table("3s"),
+              HasSubstr("RPE [m/s]       no pair of poses spans the window; --delta 1f compares "
+                        "neighbouring poses\n"));
+  EXPECT_THAT(table("9f"), HasSubstr("RPE [m/s]       no pair of poses spans the window\n"));
+}
+
 TEST(Evaluate, WritesTableJsonAndFigures) {
   const ScratchFolder folder;
   const auto sequence = WriteEuroc(folder);

@@ -394,6 +394,7 @@ TEST(BadInput, MoreThanOneCommandKnows) {
   ExpectRefused(RunProgram(folder, "info " + Quoted(folder / "nothing")),
                 "nothing: expected a EuRoC",
                 "info");
+  ExpectRefused(RunProgram(folder, "run / --out -"), "--out: expected a folder, found -", "-");
   ExpectRefused(RunProgram(folder, "rum"), "unknown command 'rum'; did you mean 'run'?", "rum");
   ExpectRefused(RunProgram(folder, "config --preset riple"),
                 "preset: expected good-line-cutting or rippl, found 'riple'",
@@ -412,7 +413,9 @@ TEST(BadInput, ARunGoesOnWithoutGroundTruth) {
   const std::vector<Case> cases = {
       {Remove(kTruth), "no errors: no ground truth to compare with"},
       {Put(kTruth, "9000000000,0,0,0,1,0,0,0\n9050000000,0,0,0,1,0,0,0\n"),
-       "no errors: the ground truth covers no pose"}};
+       "no errors: the ground truth covers fewer than three poses"},
+      {Put(kTruth, "1000000000,0,0,0,1,0,0,0\n1050000000,0.1,0,0,1,0,0,0\n"),
+       "no errors: the ground truth covers fewer than three poses"}};
   for (const Case& c : cases) {
     const ScratchFolder folder;
     const fs::path sequence = WritePosterSequence(folder, 6);

@@ -404,7 +404,9 @@ TEST(MapExport, GivesImagesAsTheRunUsedThem) {
   EXPECT_THAT(turned.err, HasSubstr("images are turned by 90 degrees clockwise"));
   ASSERT_EQ(export_with(" --rotate 90").code, 0);
   expect_size(300, 400);
-  ExpectRefusal(export_with(""), "expected the camera that the map was made with");
+  ExpectRefusal(export_with(""),
+                "expected the camera that the map was made with, found another one: images of "
+                "300x400 and 400x300 pixels, one of them turned");
   ExpectRefusal(run(" --rotate 90"), "sequence: expected one camera whose images can be turned");
   ExpectRefusal(run(" --rotate 45"), "--rotate: expected auto, none, 90, 180 or 270, found 45");
   ExpectRefusal(run(" --max-width 3"), "--max-width: expected a whole number from 16 to 100000");

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <fmt/core.h>
+
+namespace plumbline {
+
+// Returns how many there are of something: "1 keyframe", "20 keyframes". The plural ends with s.
+template <class Number>
+std::string Counted(Number count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+}  // namespace plumbline
