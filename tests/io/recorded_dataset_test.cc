@@ -4,8 +4,8 @@
 #include "plumbline/io/open_dataset.h"
 
 #include "tests/io/dataset_fixtures.h"
+#include "tests/io/recorded_bag.h"
 #include "tests/io/scratch_folder.h"
-#include "tests/support/bag_writer.h"
 #include "tests/support/mcap_writer.h"
 #include <bit>
 #include <limits>
@@ -25,50 +25,6 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
-
-constexpr std::int64_t kSecond = 1'000'000'000;
-
-TestImage Gray(std::int64_t stamp_ns, char value) {
-  return {stamp_ns, "mono8", 8, 6, 8, std::string(48, value)};
-}
-
-void AddImage(BagWriter& bag, const std::string& topic, const TestImage& image) {
-  bag.Add(topic, "sensor_msgs/Image", image.stamp_ns + 7, RawImageMessage(Dialect::kRos1, image));
-}
-
-void AddPacked(BagWriter& bag, const std::string& topic, const TestImage& image) {
-  bag.Add(topic,
-          "sensor_msgs/CompressedImage",
-          image.stamp_ns + 7,
-          CompressedImageMessage(Dialect::kRos1, image));
-}
-
-void AddCamera(BagWriter& bag, const std::string& topic, const TestCamera& camera) {
-  bag.Add(topic, "sensor_msgs/CameraInfo", 1, CalibrationMessageOf(Dialect::kRos1, camera));
-}
-
-TestCamera RightCamera() {
-  TestCamera camera;
-  camera.p[3] = -0.5;  // 0.1 m
-  return camera;
-}
-
-// Three stereo pairs, the third without its right image, calibrated.
-BagWriter StereoBag() {
-  BagWriter bag;
-  AddCamera(bag, "/cam0/camera_info", {});
-  AddCamera(bag, "/cam1/camera_info", RightCamera());
-  for (const int i : {1, 2, 3}) {
-    AddImage(bag, "/cam0/image_raw", Gray(i * kSecond, static_cast<char>(i)));
-    if (i < 3)
-      AddImage(bag, "/cam1/image_raw", Gray(i * kSecond + 1000, static_cast<char>(10 + i)));
-  }
-  return bag;
-}
-
-std::filesystem::path Write(const ScratchFolder& folder, BagWriter bag) {
-  return folder.Write("x.bag", bag.Finish());
-}
 
 TEST(Recordings, ReadsAPairOfABag) {
   const ScratchFolder folder;
@@ -296,33 +252,6 @@ TEST(Recordings, TellOnceOfImagesOf16Bits) {
   EXPECT_EQ(dataset->Read(0)->left.at(0, 0), 255);
 }
 
-// Images of 16 bits whose levels go up to these.
-BagWriter DeepBag(const std::vector<std::string>& topics, const std::vector<int>& levels) {
-  BagWriter bag;
-  for (const std::string& topic : topics) {
-    std::int64_t stamp_ns = 0;
-    for (const int level : levels) {
-      TestImage image{stamp_ns += kSecond, "mono16", 8, 6, 18, ""};
-      for (int i = 0; i < 6; ++i) {
-        for (int k = 0; k < 8; ++k) {
-          image.data += LittleEndian(static_cast<std::uint64_t>(k == 0 ? level : level / 2), 2);
-        }
-        image.data += "**";  // rows have a margin
-      }
-      AddImage(bag, topic, image);
-    }
-  }
-  return bag;
-}
-
-std::string PairFile(const ScratchFolder& folder) {
-  return folder
-      .Write("pair.yaml",
-             "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrectified: true\nbaseline: 0.1\n"
-             "depth_factor: 1000\nright:\n  size: [8, 6]\n  intrinsics: [5, 5, 4, 3]\n")
-      .string();
-}
-
 TEST(Recordings, TakeAPairOf16BitsForImages) {
   const ScratchFolder folder;
   const auto path = Write(folder, DeepBag({"/cam0/image_raw", "/cam1/image_raw"}, {800, 900}));
@@ -389,62 +318,6 @@ TEST(Recordings, TakeWhatIsNamedInItsOrder) {
         HasSubstr("expected --topic to name images in the order left, right, depth, found " +
                   topics[0]));
   }
-}
-
-TEST(Recordings, SayThat16BitsAloneMayBeDepth) {
-  const ScratchFolder folder;
-  const auto path = Write(folder, DeepBag({"/ir/image"}, {2000}));
-  EXPECT_THAT(MessageOf([&] { OpenDataset(path, {.camera = PairFile(folder)}); }),
-              HasSubstr("expected an image beside what may be depth, found /ir/image (mono16, 1 "
-                        "images); --topic NAME takes a topic of 16 bits for images"));
-}
-
-TEST(Recordings, ListTopicsWhereTheChoiceIsNotClear) {
-  const ScratchFolder folder;
-  BagWriter bag;
-  AddImage(bag, "/front/image", Gray(kSecond, 'a'));
-  AddImage(bag, "/back/image", Gray(kSecond, 'b'));
-  const auto path = Write(folder, bag);
-  const std::string camera = PairFile(folder);
-  const auto message = [&](const DatasetOptions& options) {
-    return MessageOf([&] { OpenDataset(path, options); });
-  };
-  EXPECT_THAT(message({.camera = camera}),
-              HasSubstr("found /back/image (mono8, 1 images), /front/image (mono8, 1 images); "
-                        "choose by --topic"));
-  EXPECT_THAT(message({.camera = camera, .topics = {"/side/image"}}),
-              HasSubstr("expected images on topic '/side/image', found none; topics: /back/image"));
-  EXPECT_THAT(message({.camera = camera, .topics = {"/front/image", "/front/image"}}),
-              HasSubstr("expected each topic once, found '/front/image' twice"));
-  const auto mono = OpenDataset(path, {.camera = camera, .topics = {"/front/image"}});
-  EXPECT_EQ(mono->sensor(), SensorKind::kMono);
-  EXPECT_EQ(mono->Read(0)->left.at(0, 0), 'a');
-  // In this order left and right.
-  const auto pair =
-      OpenDataset(path, {.camera = camera, .topics = {"/front/image", "/back/image"}});
-  ASSERT_EQ(pair->sensor(), SensorKind::kStereo);
-  EXPECT_EQ(pair->Read(0)->left.at(0, 0), 'a');
-  EXPECT_EQ(pair->Read(0)->right->at(0, 0), 'b');
-  EXPECT_THAT(MessageOf([&] { OpenDataset(folder.path(), {.topics = {"/a"}}); }),
-              HasSubstr("found none of them"));
-}
-
-TEST(Recordings, WantACameraFileWhereThereIsNoCameraInfo) {
-  const ScratchFolder folder;
-  BagWriter bag;
-  AddImage(bag, "/cam0/image_raw", Gray(kSecond, 'a'));
-  TestCamera uncalibrated;
-  uncalibrated.k = {};
-  uncalibrated.p = {};
-  AddCamera(bag, "/cam0/camera_info", uncalibrated);
-  const auto path = Write(folder, bag);
-  EXPECT_THAT(
-      MessageOf([&] { OpenDataset(path); }),
-      HasSubstr("expected a calibration of /cam0/image_raw (sensor_msgs/CameraInfo), found none: "
-                "give --camera FILE"));
-  EXPECT_FALSE(OpenDataset(path, {.allow_missing_camera = true})->info().has_calibration);
-  EXPECT_THAT(MessageOf([&] { OpenDataset(path, {.camera = "euroc"}); }),
-              HasSubstr("expected an image of 752x480 pixels as in the calibration, found 8x6"));
 }
 
 TEST(Recordings, ReadCamerasAsTheyAreCalibrated) {
@@ -543,28 +416,6 @@ TEST(Recordings, TakeModelsOfMoreNumbersThatAreZero) {
   }
 }
 
-TEST(Recordings, FailFrameByFrame) {
-  const ScratchFolder folder;
-  BagWriter bag;
-  AddCamera(bag, "/c/camera_info", {});
-  AddImage(bag, "/c/image", Gray(kSecond, 'a'));
-  TestImage shorter = Gray(2 * kSecond, 'b');
-  shorter.data.resize(40);
-  AddImage(bag, "/c/image", shorter);
-  const std::string png = Png(8, 6, 'c');
-  AddPacked(bag, "/c/image", {3 * kSecond, "png", 0, 0, 0, png.substr(0, png.size() - 4)});
-  TestImage bayer = Gray(4 * kSecond, 'd');
-  bayer.encoding = "bayer_rggb16";
-  AddImage(bag, "/c/image", bayer);
-  const auto dataset = OpenDataset(Write(folder, bag));
-  ASSERT_EQ(dataset->size(), 4U);
-  EXPECT_TRUE(dataset->Read(0));
-  EXPECT_EQ(dataset->Read(1).error().why, "/c/image: expected 48 bytes of pixels, found 40");
-  EXPECT_EQ(dataset->Read(2).error().why, "/c/image: the file ends early");
-  EXPECT_EQ(dataset->Read(3).error().why,
-            "/c/image: expected an image, found encoding 'bayer_rggb16'");
-}
-
 TEST(Recordings, OrderImagesByTheSensorsStamps) {
   const ScratchFolder folder;
   BagWriter bag;
@@ -634,17 +485,6 @@ TEST(Recordings, SayThatNoCameraIsSoFast) {
   EXPECT_THAT(notes(1'000'000), Not(Contains(HasSubstr("frames a second"))));
 }
 
-TEST(Recordings, NameTheTopicOfDepthOfAnotherSize) {
-  const ScratchFolder folder;
-  BagWriter bag;
-  AddCamera(bag, "/rgb/camera_info", {});
-  AddImage(bag, "/rgb/image", Gray(kSecond, 'a'));
-  AddImage(bag, "/depth/image", {kSecond, "16UC1", 4, 3, 8, std::string(24, '\1')});
-  EXPECT_THAT(MessageOf([&] { OpenDataset(Write(folder, bag)); }),
-              HasSubstr("x.bag: /depth/image: expected an image of 8x6 pixels as in the "
-                        "calibration, found 4x3"));
-}
-
 // A simulation begins at 0; elsewhere 0 means that nobody set the stamp.
 TEST(Recordings, MayBeginAtZero) {
   EXPECT_THAT(FramesOfStamps({0, kSecond / 20, kSecond / 10}),
@@ -653,28 +493,6 @@ TEST(Recordings, MayBeginAtZero) {
   EXPECT_THAT(FramesOfStamps({0, 103 * kSecond, 104 * kSecond}),
               ElementsAre(100 * kSecond, 103 * kSecond, 104 * kSecond));
   EXPECT_THAT(FramesOfStamps({0}), ElementsAre(100 * kSecond));
-}
-
-TEST(Recordings, RefuseWhatHasNoImages) {
-  const ScratchFolder folder;
-  BagWriter bag;
-  bag.Add("/imu", "sensor_msgs/Imu", 5, "something");
-  EXPECT_THAT(MessageOf([&] { OpenDataset(Write(folder, bag)); }),
-              HasSubstr("found sensor_msgs/Imu"));
-  BagWriter lying;
-  lying.Add("/c/image", "sensor_msgs/Image", 5, "something");
-  EXPECT_THAT(
-      MessageOf([&] { OpenDataset(Write(folder, lying)); }),
-      HasSubstr("expected messages of sensor_msgs/Image on /c/image, found one that is none"));
-  EXPECT_THAT(MessageOf([&] { OpenDataset(folder.Write("cut.mcap", "")); }),
-              HasSubstr("expected an MCAP file"));
-  BagWriter apart;
-  AddImage(apart, "/cam0/image_raw", Gray(kSecond, 'a'));
-  AddImage(apart, "/cam1/image_raw", Gray(2 * kSecond, 'a'));
-  AddCamera(apart, "/cam0/camera_info", {});
-  AddCamera(apart, "/cam1/camera_info", RightCamera());
-  EXPECT_THAT(MessageOf([&] { OpenDataset(Write(folder, apart)); }),
-              HasSubstr("within 5 ms, found none"));
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Wrong arguments: an exception that says what was expected and what was found, and no crash."""
 import functools
-import shutil
 import sys
 
 import numpy as np
@@ -437,67 +436,6 @@ def test_objects_that_were_never_made_are_refused(bound):
             len(bound.__new__(bound))
 
 
-def test_options_that_hold_themselves_are_refused():
-    endless = {}
-    endless["a"] = endless
-    with pytest.raises(plumbline.InputError, match="expected at most 16 dictionaries"):
-        plumbline.options(**endless)
-    with pytest.raises(plumbline.InputError, match="expected at most 16 dictionaries"):
-        plumbline.Synth("room", **endless)
-
-
-def test_what_is_saved_is_read(tmp_path):
-    made = trajectory(stamps=[-4 * 10**18, 4 * 10**18], positions=[[0, 1e9, 0], [-1e9, 0, 0]])
-    made.save(tmp_path / "t.txt")
-    read = plumbline.Trajectory.load(tmp_path / "t.txt")
-    assert list(read.stamps_ns) == [-4 * 10**18, 4 * 10**18]
-    assert (read.positions == made.positions).all()
-
-
-def test_names_of_files_that_are_no_text_are_told():
-    with pytest.raises(plumbline.InputError, match=r"/none/\\xff\.plb"):
-        plumbline.load_map(b"/none/\xff.plb".decode(errors="surrogateescape"))
-
-
-def test_data_whose_names_are_no_text_are_read(sequence, tmp_path):
-    folder = tmp_path / b"\xff".decode(errors="surrogateescape")
-    (folder).symlink_to(sequence.resolve())
-    dataset = plumbline.open(folder)
-    assert dataset.name == folder.name and dataset.path == folder and folder.name in repr(dataset)
-    run = plumbline.run(dataset, stop=2, out=tmp_path / (folder.name + "out"))
-    assert run.out == str(tmp_path / (folder.name + "out"))
-
-
-def test_messages_name_arguments(dataset, tmp_path):
-    for i in range(2):
-        (tmp_path / f"{i}.png").write_bytes(b"")
-    with pytest.raises(plumbline.InputError, match="give camera=FILE"):
-        plumbline.open(tmp_path)
-    (tmp_path / "a--map FILE").mkdir()
-    (tmp_path / "a--map FILE" / "trajectory.txt").write_text("mine")
-    with pytest.raises(plumbline.InputError, match="a--map FILE/trajectory.txt.* another out"):
-        plumbline.run(dataset, stop=1, out=tmp_path / "a--map FILE")
-    with pytest.raises(plumbline.InputError, match="^slam.sed=1: "):
-        plumbline.options(slam={"sed": 1})
-
-
-def test_errors_have_a_family():
-    assert issubclass(plumbline.InputError, (plumbline.Error,))
-    assert issubclass(plumbline.InputError, ValueError)
-    assert issubclass(plumbline.BugError, plumbline.Error)
-    assert plumbline.InputError.__module__ == "plumbline"
-
-
-def test_a_refused_frame_does_no_harm():
-    made = system(frames=1)
-    for images, stamp in ((GRAY[:3], 5), (GRAY, 0), (None, 7), (GRAY, 1.0)):
-        with pytest.raises(plumbline.InputError):
-            made.process(images, stamp)
-    assert made.process(GRAY, 2).index == 1
-    made.finish()
-    assert made.finished
-
-
 def continued(atlas, system_before):
     system_before.continue_in(atlas)
 
@@ -607,28 +545,3 @@ def test_every_public_function_is_in_the_tables(dataset, finished, tmp_path):
     takes_arguments |= {"run", "pinhole"}
     assert len(takes_arguments) > 30 and len(CASES) + len(RUNS) > 60
     assert takes_arguments - refusing == set()
-
-
-def test_an_image_that_is_gone_is_skipped(sequence, tmp_path):
-    copy = tmp_path / "copy"
-    shutil.copytree(sequence, copy)
-    images = sorted((copy / "mav0" / "cam0" / "data").iterdir())
-    images[3].write_bytes(images[3].read_bytes()[:500])
-    dataset = plumbline.open(copy)
-    with pytest.raises(plumbline.InputError, match=images[3].name):
-        dataset[3]
-    run = plumbline.run(dataset, stop=6)
-    assert [result.status for result in run.results][3] == "skipped"
-    assert run.results[3].reason == "image_unreadable"
-    assert run.results[3].world_from_camera is None and run.results[3].map is None
-
-
-def test_an_image_of_another_size_ends_a_run_as_it_does_in_the_program(sequence, tmp_path):
-    copy = tmp_path / "copy"
-    shutil.copytree(sequence, copy)
-    images = sorted((copy / "mav0" / "cam0" / "data").iterdir())
-    images[3].write_bytes(b"P5\n4 3\n255\n" + bytes(12))
-    with pytest.raises(plumbline.InputError, match="as in the calibration, found 4x3"):
-        plumbline.run(copy, stop=6, out=tmp_path / "out")
-    # What was done until then is written.
-    assert len((tmp_path / "out" / "frames.csv").read_text().splitlines()) == 1 + 3
