@@ -30,7 +30,7 @@ constexpr auto EnumNames(std::type_identity<InitialMatching>) {
 // What becomes of points that some of the frames do not show.
 enum class MissingPlaces {
   kInterpolate,  // their places are interpolated (first paper, section 2.2)
-  kLeaveOut,     // the entries of the matrix that they would have given weigh nothing
+  kLeaveOut,     // the entries of the matrix that are missing weigh nothing
   kTriangulate,  // they take no part in the factorization, and are triangulated from its poses
 };
 constexpr auto EnumNames(std::type_identity<MissingPlaces>) {
@@ -43,6 +43,7 @@ constexpr auto EnumNames(std::type_identity<MissingPlaces>) {
 struct PairwiseOptions {
   MissingPlaces missing = MissingPlaces::kInterpolate;
   bool reject_outliers = true;
+  bool adjust = true;
 };
 
 template <class Visitor>
@@ -54,6 +55,10 @@ void VisitFields(Visitor&& visit, PairwiseOptions& o) {
   visit("reject_outliers",
         o.reject_outliers,
         "matches far from their epipolar lines are left out before anything is completed");
+  visit("adjust",
+        o.adjust,
+        "a bundle adjustment of all frames makes the map; false: the poses of the factorization "
+        "stay as they are");
 }
 
 struct InitializationOptions {

@@ -85,6 +85,7 @@ std::optional<InitialMap> PairwiseInitializer::MakeMap(const std::vector<int>& f
     return std::nullopt;
   }
   ScaleToMedianDepth(map);
+  if (!options_.pairwise.adjust) return map;
   AdjustMap(camera_, map);
   if (map.points.size() + map.lines.size() < kFewestLandmarks || map.points.empty()) {
     return std::nullopt;

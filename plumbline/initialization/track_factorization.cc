@@ -240,19 +240,23 @@ std::optional<PairwiseReconstruction> FactorizePairwise(const Tracks& tracks,
     const auto scaled = ChainLengths(tracks, poses);
     return scaled ? std::optional(triangulated(*scaled)) : std::nullopt;
   }
-  if (missing == MissingPlaces::kLeaveOut) {
-    auto all = Factorize(tracks, tracks.views, poses, options);
-    return all ? std::optional(PairwiseReconstruction{*std::move(all)}) : std::nullopt;
+  std::vector<TrackedPoints> completed = CompleteTracks(tracks);
+  auto first = Factorize(tracks, completed, poses, options);
+  if (!first) {
+    completed = tracks.views;
+    first = Factorize(tracks, completed, poses, options);
   }
-  auto first = Factorize(tracks, CompleteTracks(tracks), poses, options);
-  if (!first) first = Factorize(tracks, tracks.views, poses, options);
   if (!first) return std::nullopt;
-  if (missing == MissingPlaces::kTriangulate) return triangulated(first->cam_from_reference);
-  const std::vector<TrackedPoints> completed = InterpolateMissing(tracks, *first, options);
+  int interpolated = 0;
+  if (missing == MissingPlaces::kLeaveOut) completed = tracks.views;
+  if (missing == MissingPlaces::kInterpolate) {
+    completed = InterpolateMissing(tracks, *first, options);
+    interpolated = CountPlaces(completed) - CountPlaces(tracks.views);
+  }
   auto all = Factorize(tracks, completed, first->cam_from_reference, options);
   if (!all) return std::nullopt;
-  return PairwiseReconstruction{*std::move(all),
-                                CountPlaces(completed) - CountPlaces(tracks.views)};
+  if (missing == MissingPlaces::kTriangulate) return triangulated(all->cam_from_reference);
+  return PairwiseReconstruction{*std::move(all), interpolated};
 }
 
 std::optional<Rigid3> ResectNewest(const Tracks& tracks, const MotionHypothesis& hypothesis) {

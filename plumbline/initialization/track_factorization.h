@@ -70,7 +70,9 @@ struct PairwiseReconstruction {
 // Interpolation needs the ratios of the translations: with unit lengths places are 15 px off in the
 // median. Points that all frames show are therefore factorized first, or, where these are too few,
 // all with their missing entries left out; then places are interpolated, and all points are
-// factorized.
+// factorized. The other two ways with missing places factorize twice as well, so that nothing but
+// the places differs: the second time with the entries that there are (kLeaveOut), or again the
+// points that all frames show (kTriangulate).
 //
 //   poses    view_from_reference of each view of the tracks
 //   returns  nullopt where too few points are left, or most lie behind the cameras

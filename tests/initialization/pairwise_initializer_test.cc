@@ -135,6 +135,21 @@ TEST(PairwiseInitializer, RepeatsItself) {
   }
 }
 
+// Without the adjustment the poses are those of the factorization, and less accurate.
+TEST(PairwiseInitializer, LeavesTheAdjustmentOutWhereAskedTo) {
+  const PairwiseRun adjusted = StartPairwise(PoseOnPath, 40);
+  const PairwiseRun as_found = StartPairwise(PoseOnPath, 40, {.pairwise = {.adjust = false}});
+  ASSERT_TRUE(adjusted.map && as_found.map);
+  ASSERT_EQ(adjusted.map->views.back().frame.id, as_found.map->views.back().frame.id);
+  EXPECT_NEAR(MedianDepth(*as_found.map), 1, 1e-9);
+  const auto direction_error = [](const InitialMap& map) {
+    const Rigid3 truth = PoseOnPath(static_cast<int>(map.views.back().frame.id.value)) *
+                         Inverse(PoseOnPath(static_cast<int>(map.views.front().frame.id.value)));
+    return DirectionErrorDeg(map.views.back().cam_from_world, truth);
+  };
+  EXPECT_LT(direction_error(*adjusted.map), direction_error(*as_found.map));
+}
+
 TEST(PairwiseInitializer, WaitsForTheWindow) {
   const PairwiseRun run = StartPairwise(PoseOnPath, 3);
   EXPECT_FALSE(run.map);
