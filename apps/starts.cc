@@ -14,6 +14,8 @@
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/error_options.h"
 #include "plumbline/report/run_folder.h"
+#include "plumbline/slam/options.h"
+#include "plumbline/slam/preset.h"
 #include "plumbline/version.h"
 
 #include "apps/command_inputs.h"
@@ -52,6 +54,7 @@ CommandSyntax StartsSyntax() {
           "compares the maps with\nthe ground truth. Writes starts.csv and summary.json.",
           {"PATH"},
           {{"--camera", "FILE", "camera file, or the name of a built-in camera"},
+           {"--preset", "NAME", "the start of a paper's system: rippl"},
            {"--config", "FILE", "options from a YAML file; may be repeated"},
            {"--set", "KEY=VALUE", "one option; may be repeated"},
            {"--seed", "N", "of everything random (0)"},
@@ -82,8 +85,20 @@ struct Setup {
   bool quiet = false;
 };
 
+// Of the options of a preset those that a start depends on.
+StartOptions OptionsOfPreset(const std::string& name) {
+  SlamOptions options;
+  OptionTable table(options);
+  if (LoadPreset(name, table).needs_stereo) {
+    throw InputError("--preset " + name +
+                     ": expected a preset for one camera, found one for a stereo pair");
+  }
+  return {options.features, options.initialization};
+}
+
 Setup ReadStartSetup(const CommandLine& line) {
   Setup setup;
+  if (const auto preset = line.Value("--preset")) setup.options = OptionsOfPreset(*preset);
   OptionTable table(setup.options);
   for (const std::string& file : line.Values("--config")) table.LoadFile(file);
   for (const std::string& assignment : line.Values("--set")) table.Set(assignment);

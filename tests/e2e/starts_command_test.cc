@@ -48,6 +48,32 @@ TEST(StartsCommand, WritesTheSameStartsTwice) {
   EXPECT_THAT(Contents(folder / "third/starts.csv"), HasSubstr("\n3,"));
 }
 
+// The options of a start are those of a run with the preset, and --set comes after it.
+TEST(StartsCommand, TakesThePresetOfAPaper) {
+  const ScratchFolder folder;
+  WritePosterSequence(folder, 12);
+  const Outcome outcome =
+      RunStarts(folder, "--start 0 --preset rippl --set features.point_count=2000");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto summary = nlohmann::json::parse(Contents(folder / "out/summary.json"));
+  const std::string options = summary["options"];
+  const Outcome run =
+      RunProgram(folder, "config --all --preset rippl --set features.point_count=2000");
+  for (const char* key : {"point_count:",
+                          "line_detector:",
+                          "line_count:",
+                          "method: rank1_pairwise",
+                          "min_line_angle_deg: 5",
+                          "frames: 3"}) {
+    const auto line_of = [&](const std::string& text) {
+      const auto at = text.find(std::string("  ") + key);
+      return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
+    };
+    EXPECT_NE(line_of(options), "") << key;
+    EXPECT_EQ(line_of(options), line_of(run.out));
+  }
+}
+
 // Starts with a map.
 long Maps(const std::string& starts) {
   long maps = Lines(starts) - 1;
@@ -96,6 +122,9 @@ TEST(StartsCommand, RefusesBadInputInOneLine) {
       {"--least-parallax -1", "--least-parallax: expected a number from 0 to 180, found -1"},
       {"--set tracking.reference=last_frame", "unknown option 'tracking.reference'"},
       {"--set initialization.method=guess", "initialization.method"},
+      {"--preset ripple", "preset: expected good-line-cutting or rippl, found 'ripple'"},
+      {"--preset good-line-cutting",
+       "expected a preset for one camera, found one for a stereo pair"},
   };
   for (const Case& c : cases) {
     const Outcome outcome = RunStarts(folder, c.arguments);
