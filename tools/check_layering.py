@@ -57,7 +57,7 @@ LABORATORY = {"line_rivals", "ceres_reference", "starts", "cutting_testbed", "ex
 THIRD_PARTY = {
     "CLI/": None,
     "benchmark/": None,
-    "boost/": r"view/web_server\.cc|lab/experiments/paired_ratios\.cc",
+    "boost/": r"view/web_server\.cc|lab/experiments/paired_(ratios|starts)\.cc",
     "ceres/": r"lab/ceres_reference/ceres_\w+\.(h|cc)",
     "coin/": r"lab/cutting_testbed/ipopt_\w+\.cc",
     "embree3/": r"worlds/\w+\.cc",

@@ -23,6 +23,8 @@ struct Variant {
   double abscissa = 0;
   // Run by an earlier version of the program, which the request names (PlanRequest::earlier).
   bool by_earlier = false;
+  // The variant that this one is compared with in place of Experiment::reference.
+  std::string reference = {};
 };
 
 // Sequences to run, by name: FOLDER/NAME for what is found in a folder of the data (euroc, kitti,

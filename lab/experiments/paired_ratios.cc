@@ -77,34 +77,32 @@ void SetRatio(const std::vector<double>& logs, PairedRatio& out) {
   }
 }
 
-// An error of the map of one start; nullopt where it is not known, or the metric is not of this
+// A number of the map of one start; nullopt where it is not known, or the metric is not of this
 // kind.
-std::optional<double> StartError(const StartRecord& start, std::string_view metric) {
+std::optional<double> StartFigure(const StartRecord& start, std::string_view metric) {
   if (!start.map) return std::nullopt;
   const StartErrors& errors = start.map->errors;
   if (metric == "rotation_error") return errors.rotation_deg;
   if (metric == "direction_error") return errors.direction_deg;
   if (metric == "depth_error") return errors.depth;
   if (metric == "map_seconds") return start.map->seconds;
+  if (metric == "map_parallax") return start.map->parallax_deg;
   return std::nullopt;
 }
 
-// Adds the logarithms of the ratios of starts at the same first frame that have both errors.
-void AddStartLogs(const std::vector<StartRecord>& variant,
-                  const std::vector<StartRecord>& reference,
-                  std::string_view metric,
-                  std::vector<double>& logs) {
-  std::map<int, double> errors;
-  for (const StartRecord& start : reference) {
-    if (const auto error = StartError(start, metric)) errors.emplace(start.frame, *error);
-  }
-  for (const StartRecord& start : variant) {
-    const auto other = errors.find(start.frame);
-    const auto mine = StartError(start, metric);
-    if (!mine || other == errors.end()) continue;
-    const double ratio = *mine / other->second;
-    if (ratio > 0 && std::isfinite(ratio)) logs.push_back(math::Log(ratio));
-  }
+// The logarithm of the ratio of two starts at one first frame; nullopt where not both are right, or
+// not from one reference frame.
+std::optional<double> StartLog(const StartRecord& start,
+                               const StartRecord& reference,
+                               std::string_view metric) {
+  constexpr StartOutcome kRight = StartOutcome::kRight;
+  if (start.outcome != kRight || reference.outcome != kRight) return std::nullopt;
+  if (start.map->reference != reference.map->reference) return std::nullopt;
+  const auto mine = StartFigure(start, metric);
+  const auto other = StartFigure(reference, metric);
+  if (!mine || !other) return std::nullopt;
+  const double ratio = *mine / *other;
+  return ratio > 0 && std::isfinite(ratio) ? std::optional(math::Log(ratio)) : std::nullopt;
 }
 
 // The pairs of one variant on one sequence.
@@ -112,6 +110,14 @@ struct SequencePairs {
   std::vector<double> logs;
   int left_out = 0;
   int lost_alone = 0;
+
+  void Add(const std::optional<double>& log) {
+    if (log) {
+      logs.push_back(*log);
+    } else {
+      ++left_out;
+    }
+  }
 };
 
 SequencePairs PairsOf(const Runs& runs,
@@ -133,7 +139,10 @@ SequencePairs PairsOf(const Runs& runs,
     const auto other = by_variant.find(reference);
     if (other == by_variant.end()) continue;
     if (mine->second.starts != nullptr) {
-      AddStartLogs(*mine->second.starts, *other->second.starts, metric, out.logs);
+      for (const auto& [start, of_reference] :
+           CommonStarts(*mine->second.starts, *other->second.starts)) {
+        out.Add(StartLog(*start, *of_reference, metric));
+      }
       continue;
     }
     const JobResult& a = *mine->second.job;
@@ -149,19 +158,17 @@ SequencePairs PairsOf(const Runs& runs,
 }
 
 // The ratios of every variant in one metric: by sequence, then over all of them.
-std::vector<PairedRatio> RatiosOf(const Plan& plan,
-                                  const Runs& runs,
-                                  std::size_t reference,
-                                  const std::string& metric) {
-  const auto& variants = plan.experiment.variants;
+std::vector<PairedRatio> RatiosOf(const Plan& plan, const Runs& runs, const std::string& metric) {
   std::vector<PairedRatio> ratios;
-  for (std::size_t v = 0; v < variants.size(); ++v) {
+  for (std::size_t v = 0; v < plan.experiment.variants.size(); ++v) {
+    const auto reference = ReferenceOf(plan, v);
+    if (!reference) continue;
     PairedRatio all;
     all.variant = v;
     all.metric = metric;
     std::map<std::string, std::vector<double>> places;  // mean logarithms of the sequences
     for (std::size_t s = 0; s < plan.sequences.size(); ++s) {
-      const SequencePairs pairs = PairsOf(runs, s, v, reference, metric);
+      const SequencePairs pairs = PairsOf(runs, s, v, *reference, metric);
       PairedRatio one{s, v, static_cast<int>(pairs.logs.size()), pairs.left_out};
       one.lost_alone = pairs.lost_alone;
       one.metric = metric;
@@ -204,24 +211,30 @@ std::optional<double> HalfWidthOfMean(const std::vector<double>& values) {
          std::sqrt(squares / (n - 1) / n);
 }
 
+std::optional<std::size_t> ReferenceOf(const Plan& plan, std::size_t variant) {
+  const auto& variants = plan.experiment.variants;
+  const std::string& own = variants[variant].reference;
+  const std::string& name = own.empty() ? plan.experiment.reference : own;
+  const auto named = std::find_if(
+      variants.begin(), variants.end(), [&](const Variant& v) { return v.name == name; });
+  const auto reference = static_cast<std::size_t>(named - variants.begin());
+  const bool is_run = std::any_of(
+      plan.jobs.begin(), plan.jobs.end(), [&](const Job& job) { return job.variant == reference; });
+  return is_run ? std::optional(reference) : std::nullopt;
+}
+
+std::string ComparedName(const Plan& plan, std::size_t variant) {
+  const Variant& v = plan.experiment.variants[variant];
+  return v.reference.empty() ? v.name : v.name + " / " + v.reference;
+}
+
 std::vector<PairedRatio> PairedRatios(const Plan& plan,
                                       const std::vector<JobResult>& results,
                                       const StartsByJob& starts) {
-  const auto& variants = plan.experiment.variants;
-  const auto named = std::find_if(variants.begin(), variants.end(), [&](const Variant& v) {
-    return v.name == plan.experiment.reference;
-  });
-  if (named == variants.end()) return {};
-  const auto reference = static_cast<std::size_t>(named - variants.begin());
-  if (std::none_of(plan.jobs.begin(), plan.jobs.end(), [&](const Job& job) {
-        return job.variant == reference;
-      })) {
-    return {};
-  }
   const Runs runs = RunsOf(plan, results, starts);
   std::vector<PairedRatio> ratios;
   for (const std::string& metric : plan.experiment.ratios) {
-    const std::vector<PairedRatio> of_metric = RatiosOf(plan, runs, reference, metric);
+    const std::vector<PairedRatio> of_metric = RatiosOf(plan, runs, metric);
     ratios.insert(ratios.end(), of_metric.begin(), of_metric.end());
   }
   return ratios;
@@ -240,6 +253,22 @@ std::string RatioTitle(const Plan& plan, const std::string& metric) {
   return fmt::format("{} against {}", metric == "ate" ? "ATE" : metric, plan.experiment.reference);
 }
 
+std::string RatioNote(const Plan& plan) {
+  if (plan.experiment.command == RunCommandKind::kStarts) {
+    return fmt::format(
+        "Geometric mean over the starts at the same first frame that both made right of the figure "
+        "divided by that of {}, or of the variant behind the stroke, with 95 % intervals by "
+        "Student's t; over all, each place counts the same. Left out: starts that not both made "
+        "right, or not from one reference frame.",
+        plan.experiment.reference);
+  }
+  return fmt::format(
+      "Geometric mean over runs of the error divided by that of {} in the same run of the same "
+      "sequence, with 95 % intervals by Student's t; over all, each place counts the same. Lost "
+      "alone: runs with lost frames where another variant lost none.",
+      plan.experiment.reference);
+}
+
 std::string RatioText(const PairedRatio& ratio) {
   if (ratio.pairs == 0) return "-";
   if (!ratio.low) return fmt::format("{:.3f}", ratio.ratio);
@@ -256,8 +285,7 @@ std::string VerdictText(const PairedRatio& ratio) {
 
 std::string ChanceText(const Plan& plan, const std::vector<PairedRatio>& of_metric) {
   const auto comparisons = std::count_if(of_metric.begin(), of_metric.end(), [&](const auto& r) {
-    return !r.sequence && r.low &&
-           plan.experiment.variants[r.variant].name != plan.experiment.reference;
+    return !r.sequence && r.low && ReferenceOf(plan, r.variant) != r.variant;
   });
   return fmt::format(
       "Of {} comparisons over all places, {:.1f} would seem certain by chance alone.",
@@ -271,6 +299,10 @@ std::string FormatRatioList(const Plan& plan, const std::vector<PairedRatio>& ra
     nlohmann::ordered_json entry;
     entry["metric"] = r.metric;
     entry["variant"] = plan.experiment.variants[r.variant].name;
+    entry["reference"] = plan.experiment.reference;
+    if (const auto v = ReferenceOf(plan, r.variant)) {
+      entry["reference"] = plan.experiment.variants[*v].name;
+    }
     entry["sequence"] = nullptr;
     if (r.sequence) entry["sequence"] = plan.sequences[*r.sequence].name;
     entry["pairs"] = r.pairs;
@@ -292,17 +324,14 @@ std::string FormatRatios(const Plan& plan, const std::vector<PairedRatio>& ratio
   std::string text;
   for (const std::vector<PairedRatio>& of_metric : ByMetric(ratios)) {
     text += fmt::format(
-        "\n## {}\n\nGeometric mean over runs of the error divided by that of {} in the same run of "
-        "the same sequence, with 95 % intervals by Student's t; over all, each place counts the "
-        "same. {} Lost alone: runs with lost frames where another variant lost none.\n\n"
-        "| variant | sequence | pairs | ratio | | left out | lost alone "
+        "\n## {}\n\n{} {}\n\n| variant | sequence | pairs | ratio | | left out | lost alone "
         "|\n|---|---|---|---|---|---|---|\n",
         RatioTitle(plan, of_metric.front().metric),
-        plan.experiment.reference,
+        RatioNote(plan),
         ChanceText(plan, of_metric));
     for (const PairedRatio& r : of_metric) {
       text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n",
-                          plan.experiment.variants[r.variant].name,
+                          ComparedName(plan, r.variant),
                           r.sequence ? plan.sequences[*r.sequence].name
                                      : fmt::format("**all {} places**", r.places),
                           r.pairs,

@@ -28,19 +28,26 @@ struct PairedRatio {
   std::string metric = "ate";  // of metrics.h
 };
 
+// Returns the variant that another one is compared with: Variant::reference, or
+// Experiment::reference; nullopt where there is none, or the plan leaves it out.
+std::optional<std::size_t> ReferenceOf(const Plan& plan, std::size_t variant);
+
+// "no_factorization / triangulated"; the name alone where the reference is that of the experiment.
+std::string ComparedName(const Plan& plan, std::size_t variant);
+
 // Returns the place that a sequence shows: sequences of one place are not independent of each
 // other. It is the name without @label and _firstN, and without the part that tells flights through
 // one room apart: worlds/vicon_easy and worlds/vicon_medium are worlds/vicon, euroc/V1_01_easy and
 // euroc/V1_03_difficult are euroc/V1.
 std::string PlaceOf(const std::string& sequence);
 
-// The errors that plan.experiment.ratios names, of each variant against plan.experiment.reference:
-// one metric after the other, by sequence and over all. Empty without a reference, or where the
-// plan leaves it out.
+// The errors that plan.experiment.ratios names, of each variant against its reference
+// (ReferenceOf): one metric after the other, by sequence and over all. Empty without a reference.
 //
-// Paired: the same run of the same sequence, or, where `starts` are given (RunCommandKind::kStarts)
-// and the metric is an error of one start, the same first frame of the same run. Pairs of runs
-// whose two trajectories have both been seen before count once.
+// Paired: the same run of the same sequence. Pairs of runs whose two trajectories have both been
+// seen before count once. Where `starts` are given (RunCommandKind::kStarts), paired are those at
+// the same first frame of the same run that both variants made right, from the same reference
+// frame; other starts that both tried are left out.
 //
 // The intervals are those of Student's t for the mean of the logarithms: by sequence of its pairs,
 // over all of the places (the mean of a place is that of its sequences, that of a sequence is that
@@ -68,10 +75,12 @@ std::vector<std::vector<PairedRatio>> ByMetric(const std::vector<PairedRatio>& r
 
 // "ATE against plucker": the heading of the ratios of a metric.
 std::string RatioTitle(const Plan& plan, const std::string& metric);
+// A sentence: what is divided by what.
+std::string RatioNote(const Plan& plan);
 
-// A JSON list of {"metric", "variant", "sequence" (null: all), "pairs", "places" (over all),
-// "left_out", "lost_alone", "ratio", "low", "high"}; ratio is null without a pair, low and high
-// without an interval.
+// A JSON list of {"metric", "variant", "reference", "sequence" (null: all), "pairs", "places" (over
+// all), "left_out", "lost_alone", "ratio", "low", "high"}; ratio is null without a pair, low and
+// high without an interval.
 std::string FormatRatioList(const Plan& plan, const std::vector<PairedRatio>& ratios);
 
 // A section of a Markdown document for each metric; empty for no ratios.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/results.h"
 
-#include "lab/experiments/figure_list.h"
 #include "plumbline/base/error.h"
 
 #include <algorithm>
@@ -52,7 +51,9 @@ std::vector<ResultRow> CollectResults(const Plan& plan,
   return rows;
 }
 
-std::string FormatResults(const std::string& experiment, const std::vector<ResultRow>& rows) {
+std::string FormatResults(const std::string& experiment,
+                          const std::vector<ResultRow>& rows,
+                          const std::vector<FigureRow>& over_runs) {
   std::vector<FigureRow> figures;
   figures.reserve(rows.size());
   for (const ResultRow& row : rows) {
@@ -64,6 +65,7 @@ std::string FormatResults(const std::string& experiment, const std::vector<Resul
                        std::string(row.metric->unit),
                        row.reason});
   }
+  figures.insert(figures.end(), over_runs.begin(), over_runs.end());
   return FormatFigureList(experiment, figures);
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "lab/experiments/figure_list.h"
 #include "lab/experiments/job_runner.h"
 #include "lab/experiments/plan.h"
 
@@ -33,7 +34,9 @@ std::vector<ResultRow> CollectResults(const Plan& plan,
                                       MetricKind kind);
 
 // A JSON list, one figure a line: {"experiment", "sequence", "variant", "seed", "metric", "value",
-// "unit"}; where value is null, "reason".
-std::string FormatResults(const std::string& experiment, const std::vector<ResultRow>& rows);
+// "unit"}; where value is null, "reason". Behind the figures of runs stand those of `over_runs`.
+std::string FormatResults(const std::string& experiment,
+                          const std::vector<ResultRow>& rows,
+                          const std::vector<FigureRow>& over_runs = {});
 
 }  // namespace plumbline

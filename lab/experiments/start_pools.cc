@@ -56,6 +56,18 @@ StartsByJob ReadStartsByJob(const Plan& plan, const std::vector<JobResult>& resu
   return starts;
 }
 
+std::vector<std::pair<const StartRecord*, const StartRecord*>> CommonStarts(
+    const std::vector<StartRecord>& a, const std::vector<StartRecord>& b) {
+  std::map<int, const StartRecord*> of_b;
+  for (const StartRecord& start : b) of_b.emplace(start.frame, &start);
+  std::vector<std::pair<const StartRecord*, const StartRecord*>> common;
+  for (const StartRecord& start : a) {
+    const auto other = of_b.find(start.frame);
+    if (other != of_b.end()) common.emplace_back(&start, other->second);
+  }
+  return common;
+}
+
 std::vector<StartRecord> StartsOfPool(const Plan& plan,
                                       const StartsByJob& starts,
                                       const SequencePool& pool,

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace plumbline {
@@ -17,6 +18,10 @@ using StartsByJob = std::vector<std::vector<StartRecord>>;
 
 // Reads starts.csv of the jobs that have figures. Throws InputError when one cannot be read.
 StartsByJob ReadStartsByJob(const Plan& plan, const std::vector<JobResult>& results);
+
+// The starts of two variants at the same first frames of one run.
+std::vector<std::pair<const StartRecord*, const StartRecord*>> CommonStarts(
+    const std::vector<StartRecord>& a, const std::vector<StartRecord>& b);
 
 // The starts of one variant on the sequences of a pool, all runs.
 std::vector<StartRecord> StartsOfPool(const Plan& plan,

@@ -73,12 +73,11 @@ std::string Table(const Plan& plan, const ResultTable& table) {
 
 std::string RatiosOfMetric(const Plan& plan, const std::vector<PairedRatio>& ratios) {
   std::string html = fmt::format(
-      "<h2>{}</h2>\n<p class=\"note\">Geometric mean over the runs, with 95 % intervals by "
-      "Student's t; over all, each place counts the same. {} Lost alone: runs with lost frames "
-      "where another variant lost none.</p>\n<div class=\"scroll\"><table>\n<thead><tr>"
+      "<h2>{}</h2>\n<p class=\"note\">{} {}</p>\n<div class=\"scroll\"><table>\n<thead><tr>"
       "<th>variant</th><th>sequence</th><th>pairs</th><th>ratio</th><th></th><th>left out</th>"
       "<th>lost alone</th></tr></thead>\n<tbody>\n",
       EscapeHtml(RatioTitle(plan, ratios.front().metric)),
+      EscapeHtml(RatioNote(plan)),
       ChanceText(plan, ratios));
   for (std::size_t i = 0; i < ratios.size(); ++i) {
     const PairedRatio& r = ratios[i];
@@ -87,7 +86,7 @@ std::string RatiosOfMetric(const Plan& plan, const std::vector<PairedRatio>& rat
         "<tr{}><th>{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></"
         "tr>\n",
         first ? " class=\"first\"" : "",
-        first ? EscapeHtml(plan.experiment.variants[r.variant].name) : "",
+        first ? EscapeHtml(ComparedName(plan, r.variant)) : "",
         r.sequence ? EscapeHtml(plan.sequences[*r.sequence].name)
                    : fmt::format("<b>all {} places</b>", r.places),
         r.pairs,
@@ -104,6 +103,26 @@ std::string Ratios(const Plan& plan, const std::vector<PairedRatio>& ratios) {
   std::string html;
   for (const auto& of_metric : ByMetric(ratios)) html += RatiosOfMetric(plan, of_metric);
   return html;
+}
+
+// Nothing without starts.
+std::string Starts(const Plan& plan, const std::vector<PairedStarts>& starts) {
+  if (starts.empty()) return "";
+  std::string html = fmt::format(
+      "<h2>Starts against {}, start by start</h2>\n<p class=\"note\">{}</p>\n"
+      "<div class=\"scroll\"><table>\n<thead>",
+      EscapeHtml(plan.experiment.reference),
+      PairsNote());
+  const auto rows = CellsOfPairs(plan, starts);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    html += "<tr>";
+    for (const std::string& cell : rows[r]) {
+      const char* kind = r == 0 ? "th" : "td";
+      html += fmt::format("<{0}>{1}</{0}>", kind, EscapeHtml(cell));
+    }
+    html += r == 0 ? "</tr></thead>\n<tbody>\n" : "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
 }
 
 std::string Variants(const Plan& plan) {
@@ -153,7 +172,7 @@ std::string_view TablePageStyle() { return kStyle; }
 std::string FormatPage(const Plan& plan,
                        const std::vector<ResultTable>& tables,
                        const std::vector<PagePlot>& plots,
-                       const std::vector<PairedRatio>& ratios,
+                       const Comparisons& against_reference,
                        const PaperComparison& comparison) {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{0}</title>\n"
@@ -172,7 +191,8 @@ std::string FormatPage(const Plan& plan,
     if (table.kind == MetricKind::kRepeatable) html += Gaps(plan, table);
   }
   html += FormatComparisonHtml(comparison);
-  html += Ratios(plan, ratios) + "<h2>Plots</h2>\n";
+  html += Starts(plan, against_reference.starts) + Ratios(plan, against_reference.ratios);
+  html += "<h2>Plots</h2>\n";
   for (const PagePlot& plot : plots) {
     html += fmt::format("<h3>{}</h3>\n<figure>{}</figure>\n", EscapeHtml(plot.metric), plot.svg);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lab/experiments/paired_ratios.h"
+#include "lab/experiments/paired_starts.h"
 #include "lab/experiments/paper_comparison.h"
 #include "lab/experiments/table.h"
 
@@ -11,6 +12,12 @@
 #include <vector>
 
 namespace plumbline {
+
+// The variants against their references.
+struct Comparisons {
+  std::vector<PairedRatio> ratios;
+  std::vector<PairedStarts> starts = {};  // of RunCommandKind::kStarts
+};
 
 struct PagePlot {
   std::string metric;
@@ -21,12 +28,12 @@ struct PagePlot {
 std::string_view TablePageStyle();
 
 // One page that needs nothing else, not even scripts: the tables with the best of each sequence
-// marked, the errors against a reference where there is one, what a paper has, the plots, what the
-// variants are, what failed and what is missing.
+// marked, the errors and the starts against a reference where there is one, what a paper has, the
+// plots, what the variants are, what failed and what is missing.
 std::string FormatPage(const Plan& plan,
                        const std::vector<ResultTable>& tables,
                        const std::vector<PagePlot>& plots,
-                       const std::vector<PairedRatio>& ratios = {},
+                       const Comparisons& against_reference = {},
                        const PaperComparison& comparison = {});
 
 }  // namespace plumbline

@@ -45,7 +45,7 @@ std::vector<PagePlot> MakePlots(const Plan& plan, const std::vector<ResultTable>
 
 void WriteTables(const Plan& plan,
                  const std::vector<JobResult>& results,
-                 const std::vector<PairedRatio>& ratios,
+                 const Comparisons& compared,
                  const std::vector<PagePlot>& more_plots) {
   MakeFolder(plan.out / "plots");
   RemovePlots(plan.out / "plots");
@@ -55,8 +55,11 @@ void WriteTables(const Plan& plan,
     const bool timing = kind == MetricKind::kTiming;
     tables.push_back(MakeTable(plan, results, kind));
     if (!timing) comparison = CompareWithPaper(plan, tables.back());
-    WriteFileAtomically(plan.out / (timing ? "timing.json" : "results.json"),
-                        FormatResults(plan.experiment.name, CollectResults(plan, results, kind)));
+    WriteFileAtomically(
+        plan.out / (timing ? "timing.json" : "results.json"),
+        FormatResults(plan.experiment.name,
+                      CollectResults(plan, results, kind),
+                      timing ? std::vector<FigureRow>{} : FiguresOfPairs(plan, compared.starts)));
     if (timing && tables.back().columns.empty()) {
       tables.pop_back();
       std::filesystem::remove(plan.out / "timing.md");  // of an experiment that measured times
@@ -65,10 +68,12 @@ void WriteTables(const Plan& plan,
     WriteFileAtomically(
         plan.out / (timing ? "timing.md" : "table.md"),
         FormatMarkdown(plan, tables.back()) +
-            (timing ? "" : FormatRatios(plan, ratios) + FormatComparisonMarkdown(comparison)));
+            (timing ? ""
+                    : FormatPairs(plan, compared.starts) + FormatRatios(plan, compared.ratios) +
+                          FormatComparisonMarkdown(comparison)));
   }
-  if (!ratios.empty()) {
-    WriteFileAtomically(plan.out / "ratios.json", FormatRatioList(plan, ratios));
+  if (!compared.ratios.empty()) {
+    WriteFileAtomically(plan.out / "ratios.json", FormatRatioList(plan, compared.ratios));
   }
   std::vector<PagePlot> plots = MakePlots(plan, tables);
   plots.insert(plots.end(), more_plots.begin(), more_plots.end());
@@ -77,7 +82,8 @@ void WriteTables(const Plan& plan,
   for (const PagePlot& plot : plots) {
     WriteFileAtomically(plan.out / "plots" / (plot.metric + ".svg"), plot.svg);
   }
-  WriteFileAtomically(plan.out / "table.html", FormatPage(plan, tables, plots, ratios, comparison));
+  WriteFileAtomically(plan.out / "table.html",
+                      FormatPage(plan, tables, plots, compared, comparison));
 }
 
 }  // namespace
@@ -85,14 +91,14 @@ void WriteTables(const Plan& plan,
 void WriteResults(const Plan& plan, const std::vector<JobResult>& results) {
   if (plan.experiment.command == RunCommandKind::kComputed) return;
   if (plan.experiment.command != RunCommandKind::kStarts) {
-    WriteTables(plan, results, PairedRatios(plan, results), {});
+    WriteTables(plan, results, {PairedRatios(plan, results)}, {});
     return;
   }
   const StartsByJob starts = ReadStartsByJob(plan, results);
   const PooledResults pooled = WithPools(plan, results, starts);
-  // Pools are rows of tables and no sequences: ratios are those of the plan without them.
-  const std::vector<PairedRatio> ratios = PairedRatios(plan, results, starts);
-  WriteTables(pooled.plan, pooled.results, ratios, StartPlots(plan, starts));
+  // Pools are rows of tables and no sequences: comparisons are those of the plan without them.
+  const Comparisons compared{PairedRatios(plan, results, starts), PairStarts(plan, starts)};
+  WriteTables(pooled.plan, pooled.results, compared, StartPlots(plan, starts));
   WriteFileAtomically(plan.out / "starts.csv", FormatStartsByJob(plan, starts));
 }
 

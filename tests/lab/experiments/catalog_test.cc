@@ -49,6 +49,10 @@ TEST(Catalog, EveryEntryNamesOnlyWhatThereIs) {
       }
       EXPECT_EQ(variant.curve.empty(), experiment.abscissa.empty()) << variant.name;
     }
+    for (const Variant& variant : experiment.variants) {
+      EXPECT_TRUE(variant.reference.empty() || variants.contains(variant.reference))
+          << variant.name;
+    }
     EXPECT_TRUE(experiment.reference.empty() || variants.contains(experiment.reference))
         << experiment.name;
     for (const SequenceChoice& choice : experiment.sequences) {

@@ -172,6 +172,7 @@ TEST(PairedRatios, StartsArePairedByTheirFirstFrame) {
   const auto start = [](int frame, double error) {
     StartRecord record;
     record.frame = frame;
+    record.outcome = StartOutcome::kRight;
     record.map.emplace();
     record.map->errors.rotation_deg = error;
     return record;
@@ -187,6 +188,53 @@ TEST(PairedRatios, StartsArePairedByTheirFirstFrame) {
   const PairedRatio& a = Find(ratios, 0, 1);
   EXPECT_EQ(a.pairs, 2);
   EXPECT_NEAR(a.ratio, 2, 1e-12);
+}
+
+// Errors of maps beyond the limits, or of windows that begin elsewhere, say nothing about each
+// other.
+TEST(PairedRatios, OfStartsAreThoseThatBothMadeRightFromOneReference) {
+  const ScratchFolder folder;
+  Plan plan = PlanWithReference(folder);
+  plan.experiment.ratios = {"direction_error", "map_parallax"};
+  const auto start = [](int frame, double error, StartOutcome outcome, int reference) {
+    StartRecord record;
+    record.frame = frame;
+    record.outcome = outcome;
+    record.map.emplace();
+    record.map->reference = reference;
+    record.map->parallax_deg = 3;
+    record.map->errors.direction_deg = error;
+    return record;
+  };
+  constexpr StartOutcome kRight = StartOutcome::kRight, kWrong = StartOutcome::kWrong;
+  StartsByJob starts(plan.jobs.size());
+  starts[0] = {start(0, 1, kRight, 0), start(10, 9, kWrong, 10), start(20, 1, kRight, 20)};
+  starts[2] = {start(0, 3, kRight, 0), start(10, 1, kRight, 10), start(20, 1, kRight, 21)};
+  const std::vector<JobResult> results(plan.jobs.size(), Success(1, "a"));
+  const auto ratios = PairedRatios(plan, results, starts);
+  const PairedRatio& a = Find(ratios, 0, 1);
+  EXPECT_EQ(a.metric, "direction_error");
+  EXPECT_EQ(a.pairs, 1);
+  EXPECT_EQ(a.left_out, 2);
+  EXPECT_NEAR(a.ratio, 3, 1e-12);
+  EXPECT_NEAR(ratios.back().ratio, 1, 1e-12) << "of the parallax";
+}
+
+TEST(PairedRatios, AVariantMayHaveAReferenceOfItsOwn) {
+  const ScratchFolder folder;
+  Plan plan = PlanWithReference(folder);
+  plan.experiment.variants[0].reference = "two";
+  std::vector<JobResult> results;
+  for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
+    results.push_back(Success(plan.jobs[i].variant == 0 ? 6 : 2, std::to_string(i)));
+  }
+  const auto ratios = PairedRatios(plan, results);
+  EXPECT_NEAR(Find(ratios, std::nullopt, 0).ratio, 3, 1e-12);
+  EXPECT_NEAR(Find(ratios, std::nullopt, 1).ratio, 1.0 / 3, 1e-12);
+  EXPECT_THAT(FormatRatios(plan, ratios), HasSubstr("| one / two | **all 2 places** |"));
+  const auto list = nlohmann::json::parse(FormatRatioList(plan, ratios));
+  EXPECT_EQ(list.front()["reference"], "two");
+  EXPECT_EQ(list.back()["reference"], "one");
 }
 
 TEST(PairedRatios, TellWhatTheyExcludeAndWhatChanceWouldGive) {

@@ -76,7 +76,7 @@ TEST(FormatPage, ShowsTheErrorsAgainstAReference) {
   Plan plan = PlanOfTwo(folder);
   plan.experiment.reference = "one";
   const std::vector<PairedRatio> ratios = {{0, 1, 2, 0, 1.5, 1.25, 1.75, 3}};
-  const std::string page = FormatPage(plan, {}, {}, ratios);
+  const std::string page = FormatPage(plan, {}, {}, {ratios});
   EXPECT_NE(page.find("ATE against one"), std::string::npos);
   EXPECT_NE(page.find("1.500 (1.250-1.750)"), std::string::npos);
   EXPECT_EQ(FormatPage(plan, {}, {}).find("ATE against"), std::string::npos);

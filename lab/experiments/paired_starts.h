@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lab/experiments/figure_list.h"
+#include "lab/experiments/plan.h"
+#include "lab/experiments/start_pools.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plumbline {
+
+// The starts of a variant beside those of its reference (ReferenceOf) at the same first frames of
+// the same runs.
+struct PairedStarts {
+  std::optional<std::size_t> sequence;  // in the plan; nullopt: all
+  std::size_t variant = 0;
+  int starts = 0;                 // that both tried
+  std::optional<int> possible{};  // of these (IsPossible); nullopt: known of none
+  // Of the variant, among the starts that are not known to be impossible; wrong ones among all.
+  int right = 0, late = 0, waiting = 0, wrong = 0;
+  // Right ones where the reference has none, and the reverse.
+  int right_alone = 0, reference_alone = 0;
+  // Of the exact sign test: how often, by chance alone, those two differ at least as much. The
+  // starts of a sequence are taken for independent, which neighbours are not quite: a small value
+  // of one sequence alone does not decide.
+  double p = 1;
+  // By how many percent points more of the starts are right than of the reference; over all the
+  // mean over places (PlaceOf), with its 95 % interval by Student's t.
+  std::optional<double> gain{}, gain_low{}, gain_high{};
+  int places = 0;  // over all: with a gain
+};
+
+// The two-sided p-value of the exact sign test for `a` pairs of one kind and `b` of the other
+// (McNemar's test of discordant pairs); 1 without any.
+double SignTestP(int a, int b);
+
+// The starts of each variant that has a reference and is not its own: by sequence, then over all.
+std::vector<PairedStarts> PairStarts(const Plan& plan, const StartsByJob& starts);
+
+// Rows of the list of results: the metrics right_alone, reference_right_alone, sign_test_p, gain,
+// gain_low, gain_high; the sequence of those over all is "all places", and there is no seed.
+std::vector<FigureRow> FiguresOfPairs(const Plan& plan, const std::vector<PairedStarts>& pairs);
+
+// A table of them: the rows of its cells, the first one being the heads of the columns.
+std::vector<std::vector<std::string>> CellsOfPairs(const Plan& plan,
+                                                   const std::vector<PairedStarts>& pairs);
+
+// What the columns mean, in one line.
+std::string PairsNote();
+
+// A section of a Markdown document; empty without pairs.
+std::string FormatPairs(const Plan& plan, const std::vector<PairedStarts>& pairs);
+
+}  // namespace plumbline
