@@ -96,35 +96,22 @@ Experiment StartPartsExperiment() {
   const std::string rank1 = "initialization.method=rank1";
   const std::string descriptors = "initialization.matching=descriptors";
   const std::string incomplete = "initialization.interpolate=false";
-  // The first paper's own start, and each of its parts left out without throwing away points.
-  const std::vector<std::string> pairwise = {"initialization.method=rank1_pairwise",
-                                             "initialization.min_line_angle_deg=5"};
-  const auto with = [&](const char* setting) {
-    std::vector<std::string> settings = pairwise;
-    settings.emplace_back(setting);
-    return settings;
-  };
-  Experiment experiment = StartExperiment(
-      "initialization_parts",
-      "monocular starts without alignment, completion, factorization, decision",
-      {{"rank1", {rank1}},
-       {"rank1_no_interpolation", {rank1, incomplete}},
-       {"rank1_no_factorization", {rank1, "initialization.factorize=false"}},
-       {"rank1_descriptors", {rank1, descriptors}},
-       {"rank1_descriptors_no_interpolation", {rank1, descriptors, incomplete}},
-       {"rank1_printed",
-        {rank1,
-         descriptors,
-         "initialization.relative_pose=eight_point",
-         "initialization.min_line_angle_deg=5"}},
-       {"pairwise", pairwise},
-       {"pairwise_leave_out", with("initialization.pairwise.missing=leave_out")},
-       {"pairwise_triangulate", with("initialization.pairwise.missing=triangulate")},
-       {"pairwise_no_factorization", with("initialization.factorize=false")},
-       {"pairwise_no_rejection", with("initialization.pairwise.reject_outliers=false")},
-       {"two_view_images", {"initialization.method=two_view_images"}},
-       {"two_view", {"initialization.method=two_view"}}},
-      "");
+  Experiment experiment =
+      StartExperiment("initialization_parts",
+                      "monocular starts without alignment, completion, factorization, decision",
+                      {{"rank1", {rank1}},
+                       {"rank1_no_interpolation", {rank1, incomplete}},
+                       {"rank1_no_factorization", {rank1, "initialization.factorize=false"}},
+                       {"rank1_descriptors", {rank1, descriptors}},
+                       {"rank1_descriptors_no_interpolation", {rank1, descriptors, incomplete}},
+                       {"rank1_printed",
+                        {rank1,
+                         descriptors,
+                         "initialization.relative_pose=eight_point",
+                         "initialization.min_line_angle_deg=5"}},
+                       {"two_view_images", {"initialization.method=two_view_images"}},
+                       {"two_view", {"initialization.method=two_view"}}},
+                      "");
   const auto world = [](const char* pattern, std::vector<std::string> arguments) {
     return SequenceChoice{
         pattern, {"frames=200", "depth=true", "depth_noise=0"}, "depth", std::move(arguments)};

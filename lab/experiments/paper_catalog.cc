@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/paper_catalog.h"
 
+#include "lab/experiments/rippl_controls.h"
+
 #include <initializer_list>
 #include <string>
 #include <utility>
@@ -146,14 +148,9 @@ Experiment RipplFigure7() {
                  world("worlds/forward"),
                  world("worlds/planar"),
                  {"euroc/*"}};
-  // `starts` makes no map beyond the first one: the settings of the preset that concern a start.
-  const std::vector<std::string> features = {"features.line_detector=lsd",
-                                             "features.point_count=2000"};
-  e.variants = {
-      {"proposed",
-       With(features,
-            {"initialization.method=rank1_pairwise", "initialization.min_line_angle_deg=5"})},
-      {"conventional", With(features, {"initialization.method=two_view"})}};
+  const std::string points = "features.point_count=2000";
+  e.variants = {{"proposed", {points}, kRippl},
+                {"conventional", {points, "initialization.method=two_view"}, kRippl}};
   e.metrics = {"starts",
                "possible",
                "success",
@@ -358,6 +355,7 @@ std::vector<Experiment> PaperExperiments() {
           RipplFigure6(),
           RipplFigure7(),
           RipplFigure8(),
+          RipplControls(),
           RipplFigure9(),
           RipplTimingSystem(),
           CuttingTable1(),

@@ -43,6 +43,7 @@ TEST(PaperCatalog, AllHoldsEveryTableAndFigure) {
                                  "rippl-figure7",
                                  "rippl-figure8",
                                  "rippl-figure9",
+                                 "rippl-controls",
                                  "cutting-table1",
                                  "cutting-table2-3",
                                  "cutting-figure2-4",
