@@ -328,7 +328,7 @@ Experiment CuttingControlExperiment(bool points) {
   }
   experiment.metrics = {"rpe_causal_mean", "roe_causal_mean", "coverage", "lost"};
   experiment.plots = {"rpe_causal_mean", "roe_causal_mean"};
-  experiment.runs = 3;
+  experiment.runs = 1;
   experiment.reference = lines.name + "_1px";
   experiment.ratios = {"rpe_causal_mean", "roe_causal_mean"};
   return experiment;
@@ -371,7 +371,7 @@ Experiment LineControlExperiment(bool mono) {
   }
   experiment.metrics = {"ate", "ate_causal", "rpe_mean", "lost", "maps", "keyframes", "lines"};
   experiment.plots = {"ate", "ate_causal"};
-  experiment.runs = 3;
+  experiment.runs = 2;
   experiment.reference = "plucker";
   experiment.ratios = {"ate", "ate_causal"};
   return experiment;

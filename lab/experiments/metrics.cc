@@ -58,6 +58,7 @@ constexpr std::array kEntries = {
            false,
            2},
           {}},
+    Entry{{"start_rpe", "mm", "rpe_pairs, or 1000 where no map was begun", kLower, false, 2}, {}},
     Entry{{"rpe_causal_mean", "m/s", "rpe_mean of the poses as first reported", kLower, false, 5},
           {"/accuracy_causal/rpe/mean"}},
     Entry{{"rpe_causal_rmse", "m/s", "rpe_rmse of the poses as first reported", kLower, false, 5},

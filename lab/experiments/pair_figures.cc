@@ -17,7 +17,8 @@ namespace plumbline {
 namespace {
 
 constexpr std::size_t kMostFrames = 1000;
-constexpr const char* kName = "rpe_pairs";
+constexpr double kMillimetres = 1000;
+constexpr const char *kName = "rpe_pairs", *kOfStart = "start_rpe";
 
 // Of all of them, or of as many as are allowed.
 std::vector<EvaluatedPose> Evenly(const std::vector<EvaluatedPose>& poses) {
@@ -54,6 +55,22 @@ std::optional<int> CountFrames(const std::filesystem::path& list, const std::str
   return std::nullopt;
 }
 
+// start_rpe: as rpe_pairs, and a metre for a run without a pose, as the first paper has it in
+// figure 8.
+void AddStartError(RunFigures& figures) {
+  constexpr double kErrorWithoutMap = 1;  // metres
+  const auto of_pairs = figures.values.find(kName);
+  const auto tracked = figures.values.find("tracked");
+  figures.reasons.erase(kOfStart);
+  if (of_pairs != figures.values.end()) {
+    figures.values[kOfStart] = of_pairs->second;
+  } else if (tracked != figures.values.end() && tracked->second == 0) {
+    figures.values[kOfStart] = kMillimetres * kErrorWithoutMap;
+  } else {
+    figures.reasons[kOfStart] = figures.reasons[kName];
+  }
+}
+
 }  // namespace
 
 void AddStartFigure(const std::filesystem::path& run, RunFigures& figures) {
@@ -73,18 +90,18 @@ void AddStartFigure(const std::filesystem::path& run, RunFigures& figures) {
 void AddPairFigures(const std::filesystem::path& sequence,
                     const std::filesystem::path& run,
                     RunFigures& figures) {
-  constexpr double kMillimetres = 1000;
   try {
     const auto error = CompareRunWithTruth(sequence, run);
     if (!error || error->poses.size() < 2) {
       figures.reasons[kName] = "no ground truth of two poses";
-      return;
+    } else {
+      figures.reasons.erase(kName);
+      figures.values[kName] = kMillimetres * ErrorOfPairs(Evenly(error->poses));
     }
-    figures.reasons.erase(kName);
-    figures.values[kName] = kMillimetres * ErrorOfPairs(Evenly(error->poses));
   } catch (const InputError&) {
     figures.reasons[kName] = "the trajectories cannot be read";
   }
+  AddStartError(figures);
 }
 
 }  // namespace plumbline

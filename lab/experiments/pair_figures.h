@@ -11,7 +11,8 @@ namespace plumbline {
 // Adds rpe_pairs to the figures of a run: for all pairs of frames with a pose the error of the
 // relative position, RMSE, as the tool of the TUM RGB-D benchmark computes it when it is not told a
 // distance in time (of more than 1000 frames, 1000 evenly taken ones). The estimate is aligned
-// first, with one camera its scale too.
+// first, with one camera its scale too. And start_rpe: the same, but a metre for a run without a
+// pose.
 //
 //   sequence  folder of the data; without ground truth, or where a file cannot be read, there is a
 //             reason instead

@@ -5,14 +5,16 @@
 #include "plumbline/base/escape_html.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace plumbline {
 namespace {
 
-constexpr const char* kNotThere = "not there";
+constexpr const char* kNotThere = "-";
 
 // Where the figures of one metric are in a table of results.
 class OurFigures {
@@ -22,16 +24,30 @@ class OurFigures {
 
   // Empty where there is no such variant, "-" where it has no figure.
   std::string Cell(std::size_t sequence, const std::string& variant) const {
-    for (const TableRow& row : table_.rows) {
-      if (row.sequence != sequence || plan_.experiment.variants[row.variant].name != variant) {
-        continue;
-      }
-      return CellText(row, row.cells[column_], *table_.columns[column_]);
+    const TableRow* row = Find(sequence, variant);
+    return row == nullptr ? "" : CellText(*row, row->cells[column_], *table_.columns[column_]);
+  }
+
+  // Runs that count: once where all of these variants have the same, else for each.
+  std::string Runs(std::size_t sequence, const std::vector<std::string>& variants) const {
+    std::vector<std::string> runs;
+    for (const std::string& variant : variants) {
+      const TableRow* row = Find(sequence, variant);
+      if (row != nullptr) runs.push_back(RunsText(*row));
     }
-    return "";
+    const bool alike =
+        std::adjacent_find(runs.begin(), runs.end(), std::not_equal_to<>()) == runs.end();
+    return alike && !runs.empty() ? runs.front() : fmt::format("{}", fmt::join(runs, "; "));
   }
 
  private:
+  const TableRow* Find(std::size_t sequence, const std::string& variant) const {
+    const auto row = std::find_if(table_.rows.begin(), table_.rows.end(), [&](const TableRow& r) {
+      return r.sequence == sequence && plan_.experiment.variants[r.variant].name == variant;
+    });
+    return row == table_.rows.end() ? nullptr : &*row;
+  }
+
   const Plan& plan_;
   const ResultTable& table_;
   std::size_t column_;
@@ -59,6 +75,16 @@ ComparedTable::Row RowOf(const std::string& label,
   return row;
 }
 
+// Of a sequence that is not there.
+std::string HowToRun(const Experiment& experiment, const std::string& paper) {
+  for (const SequenceChoice& choice : experiment.sequences) {
+    if (choice.paper != paper) continue;
+    return fmt::format(
+        "not there: `experiment {} --full --only {}`", experiment.name, choice.pattern);
+  }
+  return "not there";
+}
+
 void AddRows(const Plan& plan,
              const PrintedTable& printed,
              const OurFigures& ours,
@@ -70,6 +96,7 @@ void AddRows(const Plan& plan,
     for (const std::string& variant : printed.variants) {
       out.rows.back().ours.push_back(ours.Cell(sequence, variant));
     }
+    out.rows.back().runs = ours.Runs(sequence, printed.variants);
   };
   std::vector<bool> shown(plan.sequences.size(), false);
   for (const PrintedRow& row : printed.rows) {
@@ -82,6 +109,7 @@ void AddRows(const Plan& plan,
     if (found) continue;
     out.rows.push_back(RowOf(row.sequence, &row, factor, count));
     out.rows.back().ours.assign(count, kNotThere);
+    out.rows.back().runs = HowToRun(plan.experiment, row.sequence);
   }
   for (std::size_t s = 0; s < plan.sequences.size(); ++s) {
     if (!shown[s]) add(s, nullptr);
@@ -99,6 +127,7 @@ std::optional<ComparedTable> Compare(const Plan& plan,
   ComparedTable out;
   out.title = fmt::format("{}: {}, {}", ColumnTitle(**column), printed.paper, printed.where);
   out.note = printed.note;
+  out.metric = printed.metric;
   out.variants = printed.variants;
   const OurFigures ours(plan, table, static_cast<std::size_t>(column - table.columns.begin()));
   AddRows(plan, printed, ours, factor.value_or(1), out);
@@ -110,24 +139,6 @@ bool HasOurs(const ComparedTable& table, std::size_t variant) {
   return std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
     return !row.ours[variant].empty() && row.ours[variant] != kNotThere;
   });
-}
-
-std::vector<std::string> HeaderOf(const ComparedTable& table) {
-  std::vector<std::string> header = {"sequence"};
-  for (std::size_t v = 0; v < table.variants.size(); ++v) {
-    header.push_back(table.variants[v] + ", paper");
-    if (HasOurs(table, v)) header.push_back(table.variants[v] + ", ours");
-  }
-  return header;
-}
-
-std::vector<std::string> CellsOf(const ComparedTable& table, const ComparedTable::Row& row) {
-  std::vector<std::string> cells = {row.sequence};
-  for (std::size_t v = 0; v < table.variants.size(); ++v) {
-    cells.push_back(row.printed[v]);
-    if (HasOurs(table, v)) cells.push_back(row.ours[v]);
-  }
-  return cells;
 }
 
 std::string MarkdownRow(const std::vector<std::string>& cells) {
@@ -147,6 +158,27 @@ std::string HtmlRow(const std::vector<std::string>& cells, const char* kind) {
 
 }  // namespace
 
+std::vector<std::string> ComparisonHeader(const ComparedTable& table) {
+  std::vector<std::string> header = {"sequence"};
+  for (std::size_t v = 0; v < table.variants.size(); ++v) {
+    header.push_back(table.variants[v] + ", paper");
+    if (HasOurs(table, v)) header.push_back(table.variants[v] + ", ours");
+  }
+  header.emplace_back("runs");
+  return header;
+}
+
+std::vector<std::string> ComparisonCells(const ComparedTable& table,
+                                         const ComparedTable::Row& row) {
+  std::vector<std::string> cells = {row.sequence};
+  for (std::size_t v = 0; v < table.variants.size(); ++v) {
+    cells.push_back(row.printed[v]);
+    if (HasOurs(table, v)) cells.push_back(row.ours[v]);
+  }
+  cells.push_back(row.runs);
+  return cells;
+}
+
 PaperComparison CompareWithPaper(const Plan& plan, const ResultTable& table) {
   PrintedFigures printed = PrintedFiguresOf(plan.experiment.name);
   PaperComparison comparison;
@@ -165,11 +197,12 @@ std::string FormatComparisonMarkdown(const PaperComparison& comparison) {
   for (const ComparedTable& table : comparison.tables) {
     text += fmt::format("### {}\n\n", table.title);
     if (!table.note.empty()) text += table.note + "\n\n";
-    const std::vector<std::string> header = HeaderOf(table);
+    const std::vector<std::string> header = ComparisonHeader(table);
     text += MarkdownRow(header) + "|";
     for (std::size_t i = 0; i < header.size(); ++i) text += "---|";
     text += "\n";
-    for (const ComparedTable::Row& row : table.rows) text += MarkdownRow(CellsOf(table, row));
+    for (const ComparedTable::Row& row : table.rows)
+      text += MarkdownRow(ComparisonCells(table, row));
     text += "\n";
   }
   for (const PrintedStatement& s : comparison.statements) {
@@ -186,9 +219,10 @@ std::string FormatComparisonHtml(const PaperComparison& comparison) {
     if (!table.note.empty()) {
       html += fmt::format("<p class=\"note\">{}</p>\n", EscapeHtml(table.note));
     }
-    html += "<div class=\"scroll\"><table>\n<thead>" + HtmlRow(HeaderOf(table), "th") +
+    html += "<div class=\"scroll\"><table>\n<thead>" + HtmlRow(ComparisonHeader(table), "th") +
             "</thead>\n<tbody>\n";
-    for (const ComparedTable::Row& row : table.rows) html += HtmlRow(CellsOf(table, row), "td");
+    for (const ComparedTable::Row& row : table.rows)
+      html += HtmlRow(ComparisonCells(table, row), "td");
     html += "</tbody></table></div>\n";
   }
   if (comparison.statements.empty()) return html;

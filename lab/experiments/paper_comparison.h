@@ -15,13 +15,15 @@ namespace plumbline {
 struct ComparedTable {
   std::string title;  // "ate [mm]: Lee and Hwang, ICCV 2019, Table 1, page 7"
   std::string note;   // may be empty
+  std::string metric;
   std::vector<std::string> variants;
   struct Row {
     std::string sequence;
     std::vector<std::string> printed, ours;  // one for each variant; empty: nothing of that kind
+    std::string runs;  // of ours: RunsText, by variant where they differ; or what to call
   };
-  // The rows of the paper first, "not there" where the sequence is missing; then our other
-  // sequences.
+  // The rows of the paper first, "-" and the command that would fill them where the sequence is not
+  // there; then our other sequences.
   std::vector<Row> rows;
 };
 
@@ -34,6 +36,10 @@ struct PaperComparison {
 // reproduced. A sequence that is a part of the paper's is named as such: its figures are not those
 // of the whole.
 PaperComparison CompareWithPaper(const Plan& plan, const ResultTable& table);
+
+// What stands above the columns of a table, and in those of a row.
+std::vector<std::string> ComparisonHeader(const ComparedTable& table);
+std::vector<std::string> ComparisonCells(const ComparedTable& table, const ComparedTable::Row& row);
 
 // Sections for the documents of results.h; empty for nothing.
 std::string FormatComparisonMarkdown(const PaperComparison& comparison);

@@ -107,12 +107,14 @@ struct StartMeans {
 };
 
 std::vector<StartMeans> MeansOfVariants(const Plan& plan, const std::vector<JobResult>& results) {
-  constexpr double kNoMapMm = 1000, kFrames = 100;
+  constexpr double kFrames = 100;  // that figure 8 is about
   std::vector<StartMeans> means(plan.experiment.variants.size());
   for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
     if (!results[i].figures) continue;
     StartMeans& mean = means[plan.jobs[i].variant];
-    mean.error_mm += ValueOr(*results[i].figures, "rpe_pairs", kNoMapMm);
+    const auto error = results[i].figures->values.find("start_rpe");
+    if (error == results[i].figures->values.end()) continue;
+    mean.error_mm += error->second;
     mean.frames += ValueOr(*results[i].figures, "start_frames", kFrames);
     ++mean.runs;
   }

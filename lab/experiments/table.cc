@@ -62,10 +62,6 @@ std::vector<const RunFigures*> Distinct(const std::vector<const RunFigures*>& ru
   return distinct;
 }
 
-Centre CentreOf(const Experiment& experiment) {
-  return experiment.tolerated_failures ? Centre::kMean : Centre::kMedian;
-}
-
 TableCell MakeCell(const std::vector<const RunFigures*>& runs,
                    int failed,
                    std::string_view name,
@@ -167,6 +163,10 @@ std::string Escaped(const std::string& text) {
 
 }  // namespace
 
+Centre CentreOf(const Experiment& experiment) {
+  return experiment.tolerated_failures ? Centre::kMean : Centre::kMedian;
+}
+
 std::optional<Spread> SpreadOf(std::vector<double> values, Centre centre) {
   if (values.empty()) return std::nullopt;
   std::sort(values.begin(), values.end());
@@ -244,7 +244,7 @@ std::string FormatMarkdown(const Plan& plan, const ResultTable& table) {
                                  plan.experiment.name,
                                  timing ? ": speed" : "",
                                  plan.experiment.help,
-                                 plan.experiment.tolerated_failures ? "Mean" : "Median",
+                                 CentreOf(plan.experiment) == Centre::kMean ? "Mean" : "Median",
                                  timing ? "" : "; runs with the same trajectory count once");
   text += "| sequence | variant | runs |";
   for (const Metric* metric : table.columns) text += " " + ColumnTitle(*metric) + " |";

@@ -12,6 +12,9 @@
 namespace plumbline {
 
 enum class Centre { kMedian, kMean };
+// Means where failures are tolerated, as the second paper has it.
+Centre CentreOf(const Experiment& experiment);
+
 struct Spread {
   double centre = 0, min = 0, max = 0;
 };

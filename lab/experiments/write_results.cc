@@ -8,6 +8,7 @@
 #include "lab/experiments/start_plots.h"
 #include "lab/experiments/start_pools.h"
 #include "lab/experiments/table.h"
+#include "lab/experiments/table_list.h"
 #include "lab/experiments/table_page.h"
 #include "plumbline/io/atomic_file.h"
 
@@ -62,9 +63,14 @@ void WriteTables(const Plan& plan,
                       timing ? std::vector<FigureRow>{} : FiguresOfPairs(plan, compared.starts)));
     if (timing && tables.back().columns.empty()) {
       tables.pop_back();
-      std::filesystem::remove(plan.out / "timing.md");  // of an experiment that measured times
+      for (const char* name : {"timing.md", "timing_table.json"}) {
+        std::filesystem::remove(plan.out / name);  // of an experiment that measured times
+      }
       continue;
     }
+    WriteFileAtomically(
+        plan.out / (timing ? "timing_table.json" : "table.json"),
+        FormatTableList(plan, tables.back(), timing ? PaperComparison{} : comparison));
     WriteFileAtomically(
         plan.out / (timing ? "timing.md" : "table.md"),
         FormatMarkdown(plan, tables.back()) +

@@ -51,6 +51,24 @@ TEST(PairFigures, TellWhyThereAreNone) {
   EXPECT_TRUE(figures.values.empty());
 }
 
+TEST(PairFigures, OfAStartAreAMetreWithoutAPose) {
+  const ScratchFolder folder;
+  WriteRun(folder, 0.03, "stereo");
+  RunFigures figures;
+  figures.values["tracked"] = 3;
+  AddPairFigures(folder / "data/euroc/a", folder / "run", figures);
+  EXPECT_EQ(figures.values.at("start_rpe"), figures.values.at("rpe_pairs"));
+  folder.Write("run/trajectory.txt", "");
+  RunFigures without_truth;  // of the poses that the run has
+  without_truth.values["tracked"] = 3;
+  AddPairFigures(folder / "data/euroc/a", folder / "run", without_truth);
+  EXPECT_EQ(without_truth.reasons.at("start_rpe"), "no ground truth of two poses");
+  RunFigures without_map;
+  without_map.values["tracked"] = 0;
+  AddPairFigures(folder / "data/euroc/a", folder / "run", without_map);
+  EXPECT_EQ(without_map.values.at("start_rpe"), 1000);
+}
+
 TEST(StartFigure, CountsTheFramesUntilTheFirstPose) {
   const ScratchFolder folder;
   RunFigures figures;

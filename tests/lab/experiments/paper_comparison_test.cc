@@ -65,7 +65,10 @@ TEST(PaperComparison, HasThePapersFiguresInOurUnitsBesideOurs) {
   EXPECT_THAT(ate.rows[0].printed, ElementsAre("10.178", "12.514"));
   EXPECT_THAT(ate.rows[0].ours, ElementsAre("5.00", "6.00"));
   EXPECT_EQ(ate.rows[1].sequence, "fr2_xyz");
-  EXPECT_THAT(ate.rows[1].ours, ElementsAre("not there", "not there"));
+  EXPECT_THAT(ate.rows[1].ours, ElementsAre("-", "-"));
+  EXPECT_EQ(ate.rows[0].runs, "1");
+  EXPECT_EQ(ate.rows[1].runs,
+            "not there: `experiment rippl-table1 --full --only tum/rgbd_dataset_freiburg2_xyz`");
   EXPECT_EQ(ate.rows[2].sequence, "fr1_floor (a part: tum/rgbd_dataset_freiburg1_floor_first3)");
   EXPECT_THAT(ate.rows[5].printed, ElementsAre("36.836", "ambiguity"));
   EXPECT_EQ(ate.rows[8].sequence, "euroc/ours");
@@ -77,8 +80,8 @@ TEST(PaperComparison, IsWrittenAsMarkdownAndHtml) {
   const ScratchFolder folder;
   const PaperComparison comparison = Compare(PlanOfTable1(folder));
   const std::string markdown = FormatComparisonMarkdown(comparison);
-  EXPECT_THAT(markdown, HasSubstr("| fr1_xyz | 10.178 | 5.00 | 12.514 | 6.00 |\n"));
-  EXPECT_THAT(markdown, HasSubstr("| fr2_desk | 46.464 | not there | 46.942 | not there |\n"));
+  EXPECT_THAT(markdown, HasSubstr("| fr1_xyz | 10.178 | 5.00 | 12.514 | 6.00 | 1 |\n"));
+  EXPECT_THAT(markdown, HasSubstr("| fr2_desk | 46.464 | - | 46.942 | - | not there: `"));
   const std::string html = FormatComparisonHtml(comparison);
   EXPECT_THAT(html, HasSubstr("<tr><th>fr1_xyz</th><td>10.178</td><td>5.00</td>"));
   EXPECT_THAT(html, HasSubstr("<th>proposed, paper</th><th>proposed, ours</th>"));
@@ -86,6 +89,22 @@ TEST(PaperComparison, IsWrittenAsMarkdownAndHtml) {
   words.statements = {{"e", "P", "page 1", "a < b"}};
   EXPECT_THAT(FormatComparisonHtml(words), HasSubstr("<li>P, page 1: a &lt; b</li>"));
   EXPECT_EQ(FormatComparisonMarkdown({}), "");
+}
+
+TEST(PaperComparison, TellsTheRunsOfEachVariantWhereTheyDiffer) {
+  const ScratchFolder folder;
+  WriteSequenceFolder(folder, "data/euroc/ours");
+  Experiment experiment = FindExperiment("rippl-table1");
+  std::erase_if(experiment.sequences,
+                [](const SequenceChoice& c) { return c.pattern.starts_with("worlds/"); });
+  PlanRequest request = RequestIn(folder);
+  request.runs = 2;
+  const Plan plan = MakePlan(experiment, request);
+  const auto table =
+      MakeTable(plan,
+                {Success(4, "a"), Success(4, "a"), Success(5, "b"), NoResult("ended by signal 11")},
+                MetricKind::kRepeatable);
+  EXPECT_EQ(CompareWithPaper(plan, table).tables[0].rows.back().runs, "1, 1 the same; 1, 1 failed");
 }
 
 TEST(PaperComparison, IsEmptyWhereNoPaperIsReproduced) {

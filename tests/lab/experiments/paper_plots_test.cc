@@ -22,7 +22,7 @@ bool HasText(const Figure& figure, const std::string& text) {
   });
 }
 
-TEST(ConvergencePlot, HasACurveForEachMethodAndCountsRunsWithoutAMapAsAMetre) {
+TEST(ConvergencePlot, HasACurveForEachMethodUpToTheErrorOfRunsWithoutAMap) {
   const ScratchFolder folder;
   WriteSequenceFolder(folder, "data/euroc/a");
   Experiment experiment = TwoVariants();
@@ -35,10 +35,10 @@ TEST(ConvergencePlot, HasACurveForEachMethodAndCountsRunsWithoutAMapAsAMetre) {
   const Plan plan = MakePlan(experiment, RequestIn(folder));
   std::vector<JobResult> results(5, Success(4, "a"));
   for (JobResult& result : results) {
-    result.figures->values["rpe_pairs"] = 20;
+    result.figures->values["start_rpe"] = 20;
     result.figures->values["start_frames"] = 10;
   }
-  results[4].figures->values.erase("rpe_pairs");
+  results[4].figures->values["start_rpe"] = 1000;
   const Figure figure = ConvergencePlot(plan, results);
   EXPECT_TRUE(HasText(figure, "proposed"));
   EXPECT_TRUE(HasText(figure, "conventional"));

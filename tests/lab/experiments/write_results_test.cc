@@ -20,12 +20,18 @@ TEST(WriteResults, FilesAreAllThereAndTimesAreApart) {
   const Plan plan = PlanOfTwo(folder);
   folder.Write("out/plots/of_before.svg", "");
   WriteResults(plan, SomeResults());
-  for (const char* name :
-       {"results.json", "timing.json", "table.md", "timing.md", "table.html", "plots/ate.svg"}) {
+  for (const char* name : {"results.json",
+                           "table.json",
+                           "timing.json",
+                           "timing_table.json",
+                           "table.md",
+                           "timing.md",
+                           "table.html",
+                           "plots/ate.svg"}) {
     EXPECT_TRUE(std::filesystem::exists(folder / "out" / name)) << name;
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "out/plots/of_before.svg"));
-  for (const char* name : {"out/results.json", "out/table.md"}) {
+  for (const char* name : {"out/results.json", "out/table.json", "out/table.md"}) {
     EXPECT_THAT(Contents(folder / name), Not(HasSubstr("fps"))) << name;
   }
   EXPECT_THAT(Contents(folder / "out/timing.json"), HasSubstr("fps"));
@@ -40,7 +46,8 @@ TEST(WriteResults, ForTheSameRunsHaveTheSameBytesWhateverTheTimes) {
     if (result.figures) result.figures->values["fps"] = 31;
   }
   WriteResults(PlanOfTwo(second), results);
-  for (const char* name : {"out/results.json", "out/table.md", "out/plots/ate.svg"}) {
+  for (const char* name :
+       {"out/results.json", "out/table.json", "out/table.md", "out/plots/ate.svg"}) {
     EXPECT_EQ(Contents(first / name), Contents(second / name)) << name;
     EXPECT_GT(Contents(first / name).size(), 100U) << name;
   }
