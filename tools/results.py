@@ -35,6 +35,10 @@ and how many comparisons would seem certain by chance alone.
                             each sequence that fits PATTERN
   plots NAME PLOT...        plots that the experiment drew, kept in docs/images/papers
 
+A single ratio stands in a line of text, also in README.md:
+
+  <!-- ratio NAME METRIC VARIANT -->1.000 (0.900-1.100)<!-- end -->
+
 Where nothing is kept yet, the table says so and names the command.
 """
 import argparse
@@ -56,6 +60,7 @@ IMAGES = ROOT / "docs" / "images" / "papers"
 LARGEST_IMAGE = 200_000  # bytes
 TABLE = re.compile(r"<!-- (ratios|starts|printed|runs|matrix|figures|plots) (\S+)((?: \S+)*) -->\n(.*?)<!-- end -->",
                    re.DOTALL)
+RATIO = re.compile(r"<!-- ratio (\S+) (\S+) (\S+) -->.*?<!-- end -->")
 # The 97.5 % quantile of Student's t for 1, 2, ... degrees of freedom; beyond the list that of many.
 STUDENT = (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131,
            2.120, 2.110, 2.101, 2.093, 2.086, 2.080, 2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042)
@@ -77,7 +82,7 @@ def starts_of(figures):
 
 
 def documents():
-    return sorted((ROOT / "docs").rglob("*.md"))
+    return [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 
 # What stands in the documents: kind, name and the further words of each table.
@@ -326,6 +331,17 @@ def images(name, plots, document):
     return lines[1:]
 
 
+def ratio_in_text(name, metric, variant):
+    try:
+        entries = read(name, "ratios")["ratios"]
+    except NotKept:
+        return "-"
+    of_all = [e for e in entries if e["sequence"] is None and (e["metric"], e["variant"]) == (metric, variant)]
+    if not of_all:
+        sys.exit(f"results: docs/results/{name}.json has no ratio of {metric} of {variant}")
+    return cell(of_all[0])
+
+
 KINDS = {"ratios": table_of_ratios, "starts": table_of_starts, "printed": printed_table, "runs": table_of_runs,
          "matrix": matrix, "figures": table_of_figures}
 
@@ -339,7 +355,9 @@ def filled(document, text):
             below = f"`{kept['command']}`, commit {kept['commit']}, {kept['date']}."
         except NotKept:
             lines, below = [], f"Nothing is kept yet: `tools/results.py make ... {name}` fills this."
-        return f"<!-- {kind} {name}{match.group(3)} -->\n" + "\n".join([*lines, "", below] if lines else [below]) + "\n<!-- end -->"
+        between = "\n".join([*lines, "", below] if lines else [below])
+        return f"<!-- {kind} {name}{match.group(3)} -->\n{between}\n<!-- end -->"
+    text = RATIO.sub(lambda m: f"<!-- ratio {' '.join(m.groups())} -->{ratio_in_text(*m.groups())}<!-- end -->", text)
     return TABLE.sub(anew, text)
 
 

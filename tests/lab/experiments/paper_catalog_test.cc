@@ -90,6 +90,36 @@ TEST(PaperCatalog, TheSystemsOfTable2DifferInAllThatMakesThem) {
   }
 }
 
+TEST(PaperCatalog, TheDefaultSystemStandsBesideThoseOfThePapers) {
+  SlamOptions usual;
+  usual.loop.enabled = false;
+  for (const char* experiment : {"rippl-table2", "cutting-table1", "cutting-table2-3"}) {
+    SlamOptions beside = OptionsOf(experiment, "default");
+    EXPECT_EQ(OptionTable(beside).Dump(), OptionTable(usual).Dump()) << experiment;
+  }
+}
+
+TEST(PaperCatalog, NoSystemOfAPaperAdjustsTheWholeMap) {
+  for (const Experiment& experiment : PaperExperiments()) {
+    if (experiment.command == RunCommandKind::kStarts) continue;
+    for (const Variant& variant : experiment.variants) {
+      if (variant.name == "default") continue;
+      EXPECT_EQ(OptionsOf(experiment.name, variant.name).mapping.final_adjustment_keyframes, 0)
+          << experiment.name << " " << variant.name;
+    }
+  }
+}
+
+TEST(PaperCatalog, ControlsAreTheExperimentsThatTheResultsAreOf) {
+  const ExperimentGroup* controls = FindExperimentGroup("controls");
+  ASSERT_NE(controls, nullptr);
+  for (const std::string& name : controls->experiments) {
+    const Experiment& experiment = FindExperiment(name);
+    EXPECT_FALSE(experiment.reference.empty()) << name;
+    EXPECT_FALSE(experiment.exclusive) << name;
+  }
+}
+
 TEST(PaperCatalog, CuttingIsAgainstTheLastFrameWithoutWeights) {
   for (const std::string name : {"L", "L+Cut", "PL", "PL+Cut", "P"}) {
     const SlamOptions options = OptionsOf("cutting-table2-3", name);
