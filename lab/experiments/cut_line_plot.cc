@@ -4,13 +4,16 @@
 #include "plumbline/association/projection_search.h"
 #include "plumbline/base/base64.h"
 #include "plumbline/base/error.h"
+#include "plumbline/base/options_io.h"
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/io/keyframe_images.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/png.h"
+#include "plumbline/slam/options.h"
 #include "plumbline/tracking/line_cutting.h"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -19,6 +22,14 @@ namespace plumbline {
 namespace {
 
 constexpr Color kMeasured{0, 200, 0}, kPiece{230, 0, 0};
+
+// Pose of the keyframe that made a line: the first one that shows it.
+std::optional<Rigid3> PoseOfMaker(const Map& map, const MapLine& line) {
+  if (line.observations.empty()) return std::nullopt;
+  const auto maker = map.keyframes().find(line.observations.begin()->first);
+  if (maker == map.keyframes().end()) return std::nullopt;
+  return maker->second.frame.cam_from_world;
+}
 
 // The lines of a keyframe as tracking would cut them at its final pose, all whole yet.
 struct LinesOfKeyFrame {
@@ -45,17 +56,14 @@ LinesOfKeyFrame CollectLines(const SavedMap& saved, const KeyFrame& keyframe) {
     if (!visible) continue;
     lines.problem.lines.push_back(
         {line->line, measurement, static_cast<int>(i), SegmentOf(line->line, *visible)});
-    lines.candidates.push_back({line, features.lines[i].sigma_px});
+    lines.candidates.push_back({line, features.lines[i].sigma_px, PoseOfMaker(saved.map, *line)});
   }
   return lines;
 }
 
-Overlay DrawCuts(const LinesOfKeyFrame& lines) {
-  LineOptions options;
-  options.weighting = LineWeighting::kNone;
-  CuttingOptions cutting;
-  cutting.method = CuttingMethod::kGreedy;
-  const PoseProblem cut = WithCutLines(lines.problem, lines.candidates, options, cutting);
+Overlay DrawCuts(const LinesOfKeyFrame& lines, const SlamOptions& options) {
+  const PoseProblem cut =
+      WithCutLines(lines.problem, lines.candidates, options.lines, options.cutting);
   Overlay overlay;
   for (const auto& match : lines.problem.lines) {
     overlay.segments.push_back({match.measurement.segment, kMeasured});
@@ -96,9 +104,11 @@ const KeyFrame& ChooseKeyFrame(const Map& map) {
 std::string CutLinePlot(const Plan& plan, const Job& job) {
   const SavedMap saved = LoadMap(job.folder / "map.plb");
   const KeyFrame& keyframe = ChooseKeyFrame(saved.map);
+  SlamOptions options;
+  OptionTable(options).LoadFile(job.folder / "options.yaml");
   const GrayImage image =
       ToGray(KeyFrameImages(plan.SequenceOf(job).path, {}, saved).Read(keyframe));
-  const std::string png = EncodeOverlayPng(image, DrawCuts(CollectLines(saved, keyframe)));
+  const std::string png = EncodeOverlayPng(image, DrawCuts(CollectLines(saved, keyframe), options));
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
       "width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\"><image width=\"{0}\" height=\"{1}\" "

@@ -333,7 +333,8 @@ Experiment CuttingFigure5() {
                  {"worlds/lowtexture"},
                  {"worlds/vicon_difficult"},
                  {"worlds/lights"}};
-  e.variants = {{"PL+Cut", {}, kCutting}};
+  // Against the map, so that there are keyframes with lines to draw.
+  e.variants = {{"PL+Cut", {"tracking.reference=local_map"}, kCutting}};
   e.metrics = {"rpe_causal_mean", "lost", "lines"};
   e.runs = 1;
   e.paper_plot = PaperPlot::kCutLines;

@@ -67,6 +67,13 @@ class TopView {
     figure_.lines.push_back({{at - half, at + half}, color, 2});
   }
 
+  // Of many every second, third, ...: more are no clearer, and the file would be large.
+  void Dots(const std::vector<Vector2d>& points, Figure::Color color) {
+    constexpr std::size_t kMost = 900;
+    const std::size_t step = points.size() / (kMost + 1) + 1;
+    for (std::size_t i = 0; i < points.size(); i += step) Dot(points[i], color);
+  }
+
   void Legend(const std::vector<std::pair<std::string, Figure::Color>>& entries) {
     double x = 64;
     for (const auto& [text, color] : entries) {
@@ -274,8 +281,8 @@ Figure RevisitPlot(const Plan& plan, const Job& job) {
     }
   }
   TopView drawing(shown, DescribeJob(plan, job));
-  for (const Vector2d& place : revisit->begin) drawing.Dot(place, kBlack);
-  for (const Vector2d& place : revisit->end) drawing.Dot(place, kRed);
+  drawing.Dots(revisit->begin, kBlack);
+  drawing.Dots(revisit->end, kRed);
   drawing.Path(revisit->truth, kGrey);
   drawing.Path(revisit->path, kBlue);
   drawing.Legend({{"made at the beginning", kBlack},
