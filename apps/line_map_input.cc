@@ -4,8 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/io/dataset.h"
-#include "plumbline/io/map_io.h"
-#include "plumbline/io/obj_lines.h"
+#include "plumbline/io/line_map_file.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/io/true_world.h"
@@ -27,17 +26,6 @@ std::optional<fs::path> Find(const std::optional<fs::path>& named,
   if (named) return named;
   if (fs::is_regular_file(folder / name, error)) return folder / name;
   return std::nullopt;
-}
-
-std::vector<Segment3> ReadLineMap(const fs::path& path) {
-  if (path.extension() == ".obj") return ReadObjLines(path);
-  if (path.extension() != ".plb") {
-    throw InputError(path.string() + ": expected a file name ending in .obj or .plb");
-  }
-  std::vector<Segment3> segments;
-  const SavedMap saved = LoadMap(path);
-  for (const auto& [id, line] : saved.map.lines()) segments.push_back(line.Interval());
-  return segments;
 }
 
 }  // namespace
