@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "lab/experiments/line_map_plots.h"
 #include "lab/experiments/paper_plots.h"
 #include "plumbline/association/projection_search.h"
 #include "plumbline/base/base64.h"
@@ -81,29 +82,11 @@ Overlay DrawCuts(const LinesOfKeyFrame& lines, const SlamOptions& options) {
   return overlay;
 }
 
-// The keyframe that shows the most lines of the map, among those in the middle half of the run.
-const KeyFrame& ChooseKeyFrame(const Map& map) {
-  const auto count = [](const KeyFrame& keyframe) {
-    return std::count_if(keyframe.frame.lines.begin(), keyframe.frame.lines.end(), [](LineId id) {
-      return id.valid();
-    });
-  };
-  const KeyFrame* best = nullptr;
-  std::size_t at = 0;
-  for (const auto& [id, keyframe] : map.keyframes()) {
-    const bool middle = 4 * at >= map.keyframes().size() && 4 * at <= 3 * map.keyframes().size();
-    if (middle && (best == nullptr || count(keyframe) > count(*best))) best = &keyframe;
-    ++at;
-  }
-  if (best == nullptr || count(*best) == 0) throw InputError("there is no keyframe with lines");
-  return *best;
-}
-
 }  // namespace
 
 std::string CutLinePlot(const Plan& plan, const Job& job) {
   const SavedMap saved = LoadMap(job.folder / "map.plb");
-  const KeyFrame& keyframe = ChooseKeyFrame(saved.map);
+  const KeyFrame& keyframe = KeyFrameWithMostLines(saved.map);
   SlamOptions options;
   OptionTable(options).LoadFile(job.folder / "options.yaml");
   const GrayImage image =

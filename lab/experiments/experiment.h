@@ -63,6 +63,8 @@ enum class PaperPlot {
   kRevisits,      // landmarks made at the beginning and at the end, from above (Figure 6)
   kConvergence,   // errors by how long the start takes, and by points (Figure 8)
   kTrajectories,  // paths beside the true one, from above (Figure 9)
+  kLineMaps,      // the lines of the maps, from above and from the side (Figure 10)
+  kLineArea,      // the lines that one image shows, from its camera and from above (Figure 11)
   kCutLines,      // images with the measured lines and the pieces that are left (Figure 5)
 };
 

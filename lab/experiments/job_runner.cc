@@ -192,8 +192,12 @@ class Runner {
       const auto asked = [&](const char* name) {
         return std::find(metrics.begin(), metrics.end(), name) != metrics.end();
       };
-      if (asked("rpe_pairs") || asked("start_rpe"))
+      if (AsksForMapLines(metrics)) {
+        AddMapLineFigures(plan.SequenceOf(job).path, job.folder, figures);
+      }
+      if (asked("rpe_pairs") || asked("start_rpe")) {
         AddPairFigures(plan.SequenceOf(job).path, job.folder, figures);
+      }
       if (asked("start_frames")) AddStartFigure(job.folder, figures);
     }
     const auto wall = figures.values.find("wall_s");

@@ -7,16 +7,21 @@
 #include "plumbline/eval/line_map_error.h"
 #include "plumbline/eval/trajectory_error.h"
 #include "plumbline/io/dataset.h"
-#include "plumbline/io/obj_lines.h"
+#include "plumbline/io/line_map_file.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/io/true_world.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace plumbline {
@@ -39,58 +44,131 @@ std::optional<LineViewers> KeyFrameViewers(const Dataset& dataset,
   return ViewersOf(dataset.calibration().left, dataset.info().stamps_ns, stamps, trajectory.poses);
 }
 
-LineMapErrorAt Compare(const Dataset& dataset,
-                       const fs::path& run,
-                       const TrajectoryError& trajectory) {
+// Compares lines of a run, in the true world, with those of the sequence, at kTolerance.
+LineMapErrorAt CompareLinesOfRun(const Dataset& dataset,
+                                 const fs::path& run,
+                                 const TrajectoryError& trajectory,
+                                 std::span<const TrueLine> truth,
+                                 std::span<const Segment3> lines) {
   const fs::path& sequence = dataset.info().path;
-  const Similarity3 reference_from_estimate =
-      AlignPoses(trajectory.poses) * trajectory.reference_from_estimate;
-  std::vector<Segment3> segments = ReadObjLines(run / "lines.obj");
-  for (Segment3& segment : segments) {
-    segment.start = reference_from_estimate * segment.start;
-    segment.end = reference_from_estimate * segment.end;
-  }
   std::vector<Parallelogram> surfaces;
   if (fs::exists(sequence / "surfaces.csv")) surfaces = ReadSurfaces(sequence / "surfaces.csv");
   LineMapErrorOptions options;
   options.tolerances = {kTolerance};
   options.viewers = KeyFrameViewers(dataset, run, trajectory);
-  return CompareLineMaps(ReadTrueLines(sequence / "lines.csv"), segments, surfaces, options).at[0];
+  return CompareLineMaps(truth, lines, surfaces, options).at[0];
+}
+
+// Whether there are true lines and a trajectory to be read (an empty one is no file to be read).
+bool CanCompareLines(const fs::path& sequence, const RunFigures& figures) {
+  std::error_code error;
+  const auto coverage = figures.values.find("coverage");
+  return fs::exists(sequence / "lines.csv", error) && coverage != figures.values.end() &&
+         coverage->second > 0;
+}
+
+// Adds `value`, in the unit of the metric, or why there is none.
+void AddLineFigure(const char* name,
+                   double factor,
+                   const std::optional<double>& value,
+                   RunFigures& figures) {
+  figures.reasons.erase(name);
+  if (value) {
+    figures.values[name] = factor * *value;
+  } else {
+    figures.reasons[name] = "no line has a counterpart";
+  }
+}
+
+// How far the further end of a line is from the true line that it is from least, ends included:
+// what is off to the side, turned, or pulled along beyond the true end. The median of all lines;
+// nullopt where there is no line or no true one.
+std::optional<double> MedianEndError(std::span<const TrueLine> truth,
+                                     std::span<const Segment3> lines) {
+  if (truth.empty()) return std::nullopt;
+  std::vector<double> errors;
+  for (const Segment3& line : lines) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const TrueLine& candidate : truth) {
+      const double start = Distance(candidate.segment, line.start);
+      if (start >= least) continue;
+      least = std::min(least, std::max(start, Distance(candidate.segment, line.end)));
+    }
+    errors.push_back(least);
+  }
+  const auto statistics = StatisticsOf(std::move(errors));
+  return statistics ? std::optional(statistics->median) : std::nullopt;
+}
+
+constexpr double kPercent = 100, kMillimetres = 1000, kDegrees = 180 / std::numbers::pi;
+constexpr std::array kLineMapMetrics = {
+    "line_recall", "line_precision", "line_angle", "line_distance", "line_multiplicity"};
+constexpr std::array kMapLineMetrics = {
+    "map_line_recall", "map_line_precision", "map_line_angle", "map_line_error"};
+
+template <class Names>
+void SayUnreadable(const Names& names, RunFigures& figures) {
+  for (const char* name : names) figures.reasons[name] = "the lines cannot be read";
 }
 
 }  // namespace
 
+Similarity3 TrueWorldFromRun(const TrajectoryError& trajectory) {
+  return AlignPoses(trajectory.poses) * trajectory.reference_from_estimate;
+}
+
+std::vector<Segment3> ReadLinesInTrueWorld(const fs::path& file,
+                                           const TrajectoryError& trajectory) {
+  const Similarity3 true_from_run = TrueWorldFromRun(trajectory);
+  std::vector<Segment3> segments = ReadLineMap(file);
+  for (Segment3& segment : segments) {
+    segment = {true_from_run * segment.start, true_from_run * segment.end};
+  }
+  return segments;
+}
+
 void AddLineMapFigures(const fs::path& sequence, const fs::path& run, RunFigures& figures) {
-  constexpr double kPercent = 100, kMillimetres = 1000, kDegrees = 180 / std::numbers::pi;
-  const auto add = [&](const char* name, double factor, const std::optional<double>& value) {
-    figures.reasons.erase(name);
-    if (value) {
-      figures.values[name] = factor * *value;
-    } else {
-      figures.reasons[name] = "no line has a counterpart";
-    }
-  };
-  std::error_code error;
-  if (!fs::exists(sequence / "lines.csv", error)) return;
-  // An empty trajectory is no file to be read.
-  const auto coverage = figures.values.find("coverage");
-  if (coverage == figures.values.end() || coverage->second == 0) return;
+  if (!CanCompareLines(sequence, figures)) return;
   try {
-    const auto dataset = OpenDataset(sequence);
     const auto trajectory = CompareRunWithTruth(sequence, run);
     if (!trajectory) return;
-    const LineMapErrorAt at = Compare(*dataset, run, *trajectory);
-    add("line_recall", kPercent, at.recall);
-    add("line_precision", kPercent, at.precision);
-    add("line_angle", kDegrees, at.median_angle);
-    add("line_distance", kMillimetres, at.median_distance);
-    add("line_multiplicity", 1, at.multiplicity);
+    const LineMapErrorAt at =
+        CompareLinesOfRun(*OpenDataset(sequence),
+                          run,
+                          *trajectory,
+                          ReadTrueLines(sequence / "lines.csv"),
+                          ReadLinesInTrueWorld(run / "lines.obj", *trajectory));
+    AddLineFigure("line_recall", kPercent, at.recall, figures);
+    AddLineFigure("line_precision", kPercent, at.precision, figures);
+    AddLineFigure("line_angle", kDegrees, at.median_angle, figures);
+    AddLineFigure("line_distance", kMillimetres, at.median_distance, figures);
+    AddLineFigure("line_multiplicity", 1, at.multiplicity, figures);
   } catch (const InputError&) {
-    for (const Metric& metric : Metrics()) {
-      if (metric.name.starts_with("line_")) {
-        figures.reasons[std::string(metric.name)] = "the lines cannot be read";
-      }
-    }
+    SayUnreadable(kLineMapMetrics, figures);
+  }
+}
+
+bool AsksForMapLines(std::span<const std::string> metrics) {
+  return std::any_of(metrics.begin(), metrics.end(), [](const std::string& name) {
+    return std::find(kMapLineMetrics.begin(), kMapLineMetrics.end(), name) != kMapLineMetrics.end();
+  });
+}
+
+void AddMapLineFigures(const fs::path& sequence, const fs::path& run, RunFigures& figures) {
+  if (!CanCompareLines(sequence, figures)) return;
+  try {
+    const auto trajectory = CompareRunWithTruth(sequence, run);
+    if (!trajectory) return;
+    const std::vector<TrueLine> truth = ReadTrueLines(sequence / "lines.csv");
+    const std::vector<Segment3> lines = ReadLinesInTrueWorld(run / "map.plb", *trajectory);
+    const LineMapErrorAt at =
+        CompareLinesOfRun(*OpenDataset(sequence), run, *trajectory, truth, lines);
+    AddLineFigure("map_line_recall", kPercent, at.recall, figures);
+    AddLineFigure("map_line_precision", kPercent, at.precision, figures);
+    AddLineFigure("map_line_angle", kDegrees, at.median_angle, figures);
+    AddLineFigure("map_line_error", kMillimetres, MedianEndError(truth, lines), figures);
+  } catch (const InputError&) {
+    SayUnreadable(kMapLineMetrics, figures);
   }
 }
 

@@ -240,6 +240,53 @@ Experiment RipplFigure9() {
   return e;
 }
 
+// The systems of table 2 and the default one beside them, also with one camera.
+Experiment RipplLines() {
+  Experiment e;
+  e.variants = RipplSystems();
+  e.variants.push_back(DefaultSystem({"--sensor", "mono"}));
+  e.runs = 1;
+  e.full_runs = 10;
+  return e;
+}
+
+Experiment RipplFigure10() {
+  Experiment e = RipplLines();
+  e.name = "rippl-figure10";
+  e.help =
+      "Lee and Hwang 2019, figure 10: how clean the lines of the map itself are, by kind of line, "
+      "from above and from the side";
+  e.sequences = {{"worlds/room"},
+                 {"worlds/office"},
+                 {"worlds/lowtexture"},
+                 Tum("freiburg1_floor", "fr1_floor"),
+                 {"euroc/MH_01_easy*"}};
+  e.metrics = {"map_line_precision",
+               "map_line_recall",
+               "map_line_error",
+               "map_line_angle",
+               "line_precision",
+               "line_recall",
+               "lines",
+               "ate"};
+  e.plots = {"map_line_precision", "map_line_error"};
+  e.paper_plot = PaperPlot::kLineMaps;
+  return e;
+}
+
+Experiment RipplFigure11() {
+  Experiment e = RipplLines();
+  e.name = "rippl-figure11";
+  e.help =
+      "Lee and Hwang 2019, figure 11: the lines of the map that one image shows, from its camera "
+      "and from above, by kind of line";
+  e.sequences = {{"worlds/room"}, Tum("freiburg1_floor", "fr1_floor"), {"euroc/MH_01_easy*"}};
+  e.metrics = {"map_line_error", "map_line_angle", "map_line_precision", "lines", "ate"};
+  e.plots = {"map_line_error"};
+  e.paper_plot = PaperPlot::kLineArea;
+  return e;
+}
+
 Experiment RipplTimingSystem() {
   Experiment e;
   e.name = "rippl-timing-system";
@@ -368,6 +415,8 @@ std::vector<Experiment> PaperExperiments() {
           RipplFigure8(),
           RipplControls(),
           RipplFigure9(),
+          RipplFigure10(),
+          RipplFigure11(),
           RipplTimingSystem(),
           CuttingTable1(),
           CuttingTables2And3(),

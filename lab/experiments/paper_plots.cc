@@ -3,6 +3,7 @@
 #include "lab/experiments/paper_plots.h"
 
 #include "lab/experiments/curve_plot.h"
+#include "lab/experiments/line_map_plots.h"
 #include "lab/experiments/run_trajectory.h"
 #include "plumbline/base/error.h"
 #include "plumbline/eval/figure_panel.h"
@@ -210,6 +211,24 @@ void AddPerJob(const Plan& plan,
   }
 }
 
+// The pictures of lines of each sequence that has runs.
+void AddLinePlots(const Plan& plan,
+                  const std::vector<JobResult>& results,
+                  std::vector<PagePlot>& out) {
+  const bool area = plan.experiment.paper_plot == PaperPlot::kLineArea;
+  for (std::size_t s = 0; s < plan.sequences.size(); ++s) {
+    try {
+      const std::string svg =
+          area ? LineAreaPlot(plan, results, s) : LineMapsPlot(plan, results, s);
+      if (svg.empty()) continue;
+      out.push_back(
+          {(area ? "line_area_" : "line_maps_") + NameForPlot(plan.sequences[s].name), svg});
+    } catch (const InputError&) {
+      continue;  // the table says what failed
+    }
+  }
+}
+
 }  // namespace
 
 Figure ConvergencePlot(const Plan& plan, const std::vector<JobResult>& results) {
@@ -307,6 +326,10 @@ std::vector<PagePlot> PaperPlots(const Plan& plan, const std::vector<JobResult>&
           plots.push_back({"paths_" + NameForPlot(plan.sequences[s].name), ToSvg(figure)});
         }
       }
+      break;
+    case PaperPlot::kLineMaps:
+    case PaperPlot::kLineArea:
+      AddLinePlots(plan, results, plots);
       break;
     case PaperPlot::kRevisits:
     case PaperPlot::kCutLines:

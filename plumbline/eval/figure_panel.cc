@@ -84,6 +84,23 @@ std::pair<int, int> AxesOfMostMotion(std::span<const EvaluatedPose> poses) {
   return {least == 0 ? 1 : 0, least == 2 ? 1 : 2};
 }
 
+std::optional<Segment2> Clipped(const Segment2& segment, const Eigen::AlignedBox2d& box) {
+  const Vector2d d = segment.end - segment.start;
+  double from = 0, to = 1;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double low = box.min()(axis) - segment.start(axis);
+    const double high = box.max()(axis) - segment.start(axis);
+    if (d(axis) == 0) {
+      if (low > 0 || high < 0) return std::nullopt;
+      continue;
+    }
+    from = std::max(from, std::min(low / d(axis), high / d(axis)));
+    to = std::min(to, std::max(low / d(axis), high / d(axis)));
+  }
+  if (from > to) return std::nullopt;
+  return Segment2{segment.start + from * d, segment.start + to * d};
+}
+
 std::string FigureNumber(double value, int digits) {
   std::ostringstream text;
   text.imbue(std::locale::classic());

@@ -4,7 +4,9 @@
 
 #include "plumbline/eval/figure.h"
 #include "plumbline/eval/trajectory_error.h"
+#include "plumbline/geometry/segment.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -42,6 +44,10 @@ std::pair<int, int> AxesOfMostMotion(std::span<const EvaluatedPose> poses);
 // Returns a pleasing distance between grid lines: 1, 2 or 5 times a power of ten, so that there are
 // about `count` in a span.
 double GridStep(double span, int count);
+
+// Returns the part of a segment inside a box (Liang and Barsky, A new concept and method for line
+// clipping, 1984).
+std::optional<Segment2> Clipped(const Segment2& segment, const Eigen::AlignedBox2d& box);
 
 // Returns a number with at most so many significant digits.
 std::string FigureNumber(double value, int digits);

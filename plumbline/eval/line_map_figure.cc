@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,25 +25,6 @@ struct ColoredSegment {
   Figure::Color color;
   double width = 1;
 };
-
-// Returns the part of a segment inside a box (Liang and Barsky, A new concept and method for line
-// clipping, 1984).
-std::optional<Segment2> Clipped(const Segment2& segment, const Eigen::AlignedBox2d& box) {
-  const Vector2d d = segment.end - segment.start;
-  double from = 0, to = 1;
-  for (int axis = 0; axis < 2; ++axis) {
-    const double low = box.min()(axis) - segment.start(axis);
-    const double high = box.max()(axis) - segment.start(axis);
-    if (d(axis) == 0) {
-      if (low > 0 || high < 0) return std::nullopt;
-      continue;
-    }
-    from = std::max(from, std::min(low / d(axis), high / d(axis)));
-    to = std::min(to, std::max(low / d(axis), high / d(axis)));
-  }
-  if (from > to) return std::nullopt;
-  return Segment2{segment.start + from * d, segment.start + to * d};
-}
 
 // Returns the segments in drawing order: true lines at the back, segments without counterpart in
 // front.

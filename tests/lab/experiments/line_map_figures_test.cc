@@ -3,8 +3,10 @@
 #include "lab/experiments/line_map_figures.h"
 
 #include "tests/io/scratch_folder.h"
+#include "tests/io/write_line_landmark.h"
 #include "tests/lab/experiments/experiment_fixtures.h"
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -44,6 +46,46 @@ TEST(LineMapFigures, AskForWhatTheKeyFramesSee) {
   AddLineMapFigures(folder / "s", folder / "run", figures);
   EXPECT_FALSE(figures.values.contains("line_recall"));  // three keyframes are too few
   EXPECT_NEAR(figures.values.at("line_precision"), 100, 1e-6);
+}
+
+// The line is 1 m from (0, 0, 2) along x; the world of the run lies 5 m beside.
+TEST(MapLineFigures, TakeTheLandmarksWithTheirOwnEnds) {
+  const ScratchFolder folder;
+  RunFigures figures = FiguresOf(folder);
+  const auto figures_of = [&](const Segment3& landmark) {
+    WriteLineLandmark(folder / "run/map.plb", landmark);
+    AddLineMapFigures(folder / "s", folder / "run", figures);
+    AddMapLineFigures(folder / "s", folder / "run", figures);
+    return figures.values;
+  };
+  const auto right = figures_of({{5.2, 0, 2}, {6, 0, 2}});
+  EXPECT_NEAR(right.at("map_line_precision"), 100, 1e-6);
+  EXPECT_NEAR(right.at("map_line_recall"), 85, 1e-6);  // 80 cm and 5 cm
+  EXPECT_NEAR(right.at("map_line_error"), 0, 1e-3);
+  EXPECT_NEAR(right.at("map_line_angle"), 0, 1e-3);
+  // An end pulled half a metre along the line: 0.85 of 1.3 m lie on the true one.
+  const auto pulled = figures_of({{5.2, 0, 2}, {6.5, 0, 2}});
+  EXPECT_NEAR(pulled.at("map_line_precision"), 100 * 0.85 / 1.3, 1e-6);
+  EXPECT_NEAR(pulled.at("map_line_error"), 500, 1e-3);
+  EXPECT_EQ(pulled.at("line_precision"), right.at("line_precision"));
+  // 12 cm beside it.
+  const auto beside = figures_of({{5.2, 0.12, 2}, {6, 0.12, 2}});
+  EXPECT_NEAR(beside.at("map_line_precision"), 0, 1e-6);
+  EXPECT_NEAR(beside.at("map_line_error"), 120, 1e-3);
+  // Turned about one end: 1 m is off.
+  const auto turned = figures_of({{5.2, 0, 2}, {5.2, 1, 2}});
+  EXPECT_NEAR(turned.at("map_line_error"), 1000, 1e-3);
+  EXPECT_EQ(figures.reasons.at("map_line_angle"), "no line has a counterpart");
+  EXPECT_EQ(turned.at("line_recall"), right.at("line_recall"));
+}
+
+TEST(MapLineFigures, SayWhyThereAreNone) {
+  const ScratchFolder folder;
+  RunFigures figures = FiguresOf(folder);
+  AddMapLineFigures(folder / "s", folder / "run", figures);
+  EXPECT_EQ(figures.reasons.at("map_line_error"), "the lines cannot be read");
+  EXPECT_TRUE(AsksForMapLines(std::vector<std::string>{"ate", "map_line_error"}));
+  EXPECT_FALSE(AsksForMapLines(std::vector<std::string>{"line_precision", "map_line_bytes"}));
 }
 
 TEST(LineMapFigures, SayWhyThereAreNone) {

@@ -44,6 +44,8 @@ TEST(PaperCatalog, AllHoldsEveryTableAndFigure) {
                                  "rippl-figure8",
                                  "rippl-figure9",
                                  "rippl-controls",
+                                 "rippl-figure10",
+                                 "rippl-figure11",
                                  "cutting-table1",
                                  "cutting-table2-3",
                                  "cutting-figure2-4",
@@ -117,6 +119,20 @@ TEST(PaperCatalog, ControlsAreTheExperimentsThatTheResultsAreOf) {
     const Experiment& experiment = FindExperiment(name);
     EXPECT_FALSE(experiment.reference.empty()) << name;
     EXPECT_FALSE(experiment.exclusive) << name;
+  }
+}
+
+TEST(PaperCatalog, TheLinesOfFigures10And11AreThoseOfOneCamera) {
+  for (const char* name : {"rippl-figure10", "rippl-figure11"}) {
+    const Experiment& experiment = FindExperiment(name);
+    const auto& table2 = FindExperiment("rippl-table2").variants;
+    ASSERT_EQ(experiment.variants.size(), table2.size());
+    for (std::size_t v = 0; v < table2.size(); ++v) {
+      EXPECT_EQ(experiment.variants[v].name, table2[v].name);
+      EXPECT_EQ(experiment.variants[v].settings, table2[v].settings);
+    }
+    EXPECT_EQ(experiment.variants.back().arguments, (std::vector<std::string>{"--sensor", "mono"}));
+    EXPECT_THAT(experiment.metrics, testing::Contains("map_line_error"));
   }
 }
 
