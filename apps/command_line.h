@@ -21,6 +21,12 @@ struct CommandOption {
   std::string help;   // with "may be repeated" for one that may
 };
 
+// An option of earlier versions. Whoever gives it is told what serves instead.
+struct RemovedOption {
+  std::string name;     // "--resume"
+  std::string instead;  // a sentence without its point
+};
+
 // What a subcommand takes.
 struct CommandSyntax {
   std::string name;                      // "evaluate"
@@ -29,6 +35,7 @@ struct CommandSyntax {
                                          // one in brackets, "[PATH]", may be left out, and the
                                          // last may be "[PATH ...]": any number of them
   std::vector<CommandOption> options;    // --help is understood always
+  std::vector<RemovedOption> removed = {};
 };
 
 // Whole numbers that an option takes, both ends included. What is beyond is no wish that anybody
@@ -45,7 +52,8 @@ constexpr int kMostFrames = 1'000'000'000;
 // positional arguments in any order; everything behind `--` is positional.
 class CommandLine {
  public:
-  // Throws InputError for an unknown option (with the nearest one there is), a value that is
+  // Throws InputError for an unknown option (with the nearest one there is, or
+  // what serves instead of a removed one), a value that is
   // missing, empty or not wanted, a second value of an option that may not be repeated, or a wrong
   // number of positional arguments. With --help among the arguments nothing else is checked.
   CommandLine(const CommandSyntax& syntax, std::span<const std::string> arguments);

@@ -29,12 +29,10 @@ bool WaitUntil(Clock::time_point due, const FrameInput::GoOn& go_on) {
 
 RecordedInput::RecordedInput(std::shared_ptr<const Dataset> dataset,
                              std::vector<std::size_t> frames,
-                             std::size_t first,
                              RunMode mode,
                              Say say)
     : dataset_(std::move(dataset)),
       frames_(std::move(frames)),
-      position_(first),
       live_(mode == RunMode::kLive),
       say_(std::move(say)),
       reader_(dataset_) {}

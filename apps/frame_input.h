@@ -52,10 +52,8 @@ class FrameInput {
 // as they were taken; others as soon as they are read.
 class RecordedInput : public FrameInput {
  public:
-  // first: position of the first frame in `frames` that is wanted.
   RecordedInput(std::shared_ptr<const Dataset> dataset,
                 std::vector<std::size_t> frames,
-                std::size_t first,
                 RunMode mode,
                 Say say);
   std::optional<InputFrame> Next(const GoOn& go_on) override;
@@ -64,7 +62,7 @@ class RecordedInput : public FrameInput {
  private:
   std::shared_ptr<const Dataset> dataset_;
   std::vector<std::size_t> frames_;
-  std::size_t position_;  // of the frame that comes next
+  std::size_t position_ = 0;  // of the frame that comes next
   bool live_;
   Say say_;
   PlaybackSchedule schedule_;

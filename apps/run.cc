@@ -4,7 +4,6 @@
 #include "plumbline/base/options_io.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/io/atomic_file.h"
-#include "plumbline/io/checkpoint_io.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/map_io.h"
@@ -86,16 +85,14 @@ CommandSyntax RunSyntax() {
        {"--map", "FILE", "go on in the map of an earlier run (its map.plb)"},
        {"--localize", "", "only find the camera in --map, and change nothing of it"},
        {"--save-every", "SECONDS", "save the map so often while running"},
-       {"--checkpoint",
-        "FILE",
-        "write there what --resume needs, when the run stops (--to, Ctrl-C)"},
-       {"--resume", "FILE", "go on with the next frame of the run that wrote this --checkpoint"},
        {"--out", "DIR", "folder for the results (default: plumbline_run)"},
        {"--view", "[HOST:]PORT", "show it in browsers, and in Foxglove"},
        {"--stay", "", "with --view: show the finished run until Ctrl-C"},
        {"--view-origin", "URL", "another page that may connect to --view; may be repeated"},
        {"--record", "FILE.mcap", "write what viewers are sent into a file"},
-       {"--quiet", "", "print nothing but errors"}}};
+       {"--quiet", "", "print nothing but errors"}},
+      {{"--checkpoint", "--save-every SECONDS saves the map of a run that may be stopped"},
+       {"--resume", "--map FILE goes on in the map of an earlier run"}}};
 }
 
 FrameSelection ReadRange(const CommandLine& line) {
@@ -130,66 +127,9 @@ struct RunSetup {
   bool quiet = false;
   std::optional<std::filesystem::path> map;  // to go on in
   bool localize = false;
-  int save_every_s = 0;                             // 0: at the end only
-  std::optional<std::filesystem::path> checkpoint;  // to be written
-  std::optional<std::filesystem::path> resume;      // to go on from
-  std::optional<SavedRun> saved;                    // what is there
-  ViewerOptions view;                               // where the run is to be shown
+  int save_every_s = 0;  // 0: at the end only
+  ViewerOptions view;    // where the run is to be shown
 };
-
-// Which frames the run is of and what is done to them, as the arguments that say so; not where it
-// ends. What is as it would be without the argument is not told.
-std::string DescribeInput(const CommandLine& line) {
-  std::vector<std::string> words;
-  const FrameSelection range = ReadRange(line);
-  const int blur = ReadBlur(line);
-  if (range.from > 0) words.push_back(fmt::format("--from {}", range.from));
-  if (range.stride > 1) words.push_back(fmt::format("--stride {}", range.stride));
-  if (blur > 1) words.push_back(fmt::format("--blur {}", blur));
-  if (const Rotation rotate = ReadRotation(line); rotate != Rotation::kAuto) {
-    words.push_back(fmt::format("--rotate {}", NameOf(rotate)));
-  }
-  if (const auto width = ReadMaxWidth(line)) words.push_back(fmt::format("--max-width {}", *width));
-  if (line.Has("--reverse")) words.emplace_back("--reverse");
-  return fmt::format("{}", fmt::join(words, " "));
-}
-
-// Describes the input that a checkpoint tells of in the same words as DescribeInput: checkpoints of
-// earlier versions also name arguments that change nothing. Words that are no arguments stay as
-// they are.
-std::string DescribeInputAgain(const std::string& words) {
-  std::vector<std::string> arguments = {"PATH"};
-  std::istringstream stream(words);
-  for (std::string word; stream >> word;) arguments.push_back(word);
-  try {
-    return DescribeInput(CommandLine(RunSyntax(), arguments));
-  } catch (const InputError&) {
-    return words;
-  }
-}
-
-// Reads the checkpoint that is to be gone on from, whole, before anything is written. Its options
-// are those of the run where the command line does not say otherwise.
-void ReadCheckpoint(const CommandLine& line, RunSetup& setup, OptionTable& table) {
-  if (const auto file = line.Value("--checkpoint")) setup.checkpoint = *file;
-  const auto file = line.Value("--resume");
-  if (!file) return;
-  if (line.Has("--map")) {
-    throw InputError("--map: expected without --resume, whose checkpoint has the maps");
-  }
-  setup.resume = *file;
-  setup.saved = LoadCheckpoint(*file);
-  const std::string input = DescribeInput(line);
-  const std::string saved_input = DescribeInputAgain(setup.saved->input);
-  const auto shown = [](const std::string& words) { return words.empty() ? "none" : words; };
-  if (saved_input != input) {
-    throw InputError(fmt::format("{}: expected the run's choice of frames again ({}), found {}",
-                                 *file,
-                                 Printable(shown(saved_input), kLongestMessage),
-                                 shown(input)));
-  }
-  table.LoadText(setup.saved->maps.context.options_yaml, *file);
-}
 
 // A camera does not wait. Standard input does: nothing is lost where its frames are processed one
 // after the other.
@@ -202,7 +142,6 @@ RunSetup ReadSetup(const CommandLine& line) {
   RunSetup setup;
   if (IsLiveByDefault(line.Positional(0))) setup.options.slam.mode = RunMode::kLive;
   OptionTable table(setup.options);
-  ReadCheckpoint(line, setup, table);
   if (const auto preset = line.Value("--preset")) LoadPreset(*preset, table);
   for (const std::string& file : line.Values("--config")) table.LoadFile(file);
   for (const std::string& assignment : line.Values("--set")) table.Set(assignment);
@@ -260,8 +199,7 @@ DatasetOptions ReadDatasetOptions(const CommandLine& line) {
 }
 
 RunFrames OpenLive(const CommandLine& line, const RunSetup& setup) {
-  for (const char* option :
-       {"--format", "--topic", "--ground-truth", "--reverse", "--checkpoint", "--resume"}) {
+  for (const char* option : {"--format", "--topic", "--ground-truth", "--reverse"}) {
     if (line.Has(option)) {
       throw InputError(std::string(option) + ": expected a recording, found a live source");
     }
@@ -321,8 +259,6 @@ RunFrames OpenInput(const CommandLine& line, const RunSetup& setup) {
   RunFrames input;
   input.blur = setup.blur;
   input.save_every_s = setup.save_every_s;
-  input.checkpoint = setup.checkpoint;
-  input.description = DescribeInput(line);
   auto dataset = OpenRecorded(line);
   input.frames = ChooseFrames(line, *dataset);
   if (line.Has("--reverse")) {
@@ -338,7 +274,6 @@ RunFrames OpenInput(const CommandLine& line, const RunSetup& setup) {
 std::vector<RunInput> InputsOf(const CommandLine& line, const Dataset& dataset) {
   std::vector<RunInput> inputs = CommandInputs(line, dataset);
   if (const auto map = line.Value("--map")) inputs.push_back({*map, true});
-  if (const auto checkpoint = line.Value("--resume")) inputs.push_back({*checkpoint, true});
   return inputs;
 }
 
@@ -353,41 +288,6 @@ std::vector<std::string> LoadMapInto(System& system, const RunSetup& setup) {
   }
 }
 
-// Before an hour's work: that there is somewhere to write the checkpoint to.
-void CheckPlaceOfCheckpoint(const RunSetup& setup) {
-  if (!setup.checkpoint) return;
-  const std::filesystem::path folder = setup.checkpoint->parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-    throw InputError("cannot write " + setup.checkpoint->string() + ": no such folder");
-  }
-  CheckWritable(*setup.checkpoint);
-}
-
-// Goes on from the checkpoint, whose frames must be the first of the input.
-void ResumeFrom(RunSetup& setup, System& system, RunFrames& input) {
-  if (!setup.saved) return;
-  try {
-    system.Resume(*std::exchange(setup.saved, std::nullopt));
-    input.first = system.frames().size();
-    if (input.first > input.frames.size()) {
-      throw InputError(fmt::format("expected the {} frames of the checkpoint and more, found {}",
-                                   input.first,
-                                   input.frames.size()));
-    }
-    for (std::size_t i = 0; i < input.first; ++i) {
-      const std::int64_t stamp_ns = input.dataset->stamp_ns(input.frames[i]);
-      if (system.frames()[i].stamp_ns == stamp_ns) continue;
-      throw InputError(
-          fmt::format("expected the same data, found frame {} of {} ns in place of {} ns",
-                      input.frames[i],
-                      stamp_ns,
-                      system.frames()[i].stamp_ns));
-    }
-  } catch (const InputError& error) {
-    throw InputError(setup.resume->string() + ": " + error.what());
-  }
-}
-
 // A recording has a file beside it until it is complete.
 void CheckOutputsApart(const RunSetup& setup) {
   std::vector<std::pair<std::string_view, std::filesystem::path>> outputs;
@@ -395,12 +295,10 @@ void CheckOutputsApart(const RunSetup& setup) {
     outputs.emplace_back("--record", *setup.view.record);
     outputs.emplace_back("--record", McapFileWriter::PartOf(*setup.view.record));
   }
-  if (setup.checkpoint) outputs.emplace_back("--checkpoint", *setup.checkpoint);
   CheckApartFromEachOther(outputs);
 }
 
-// The recording and the checkpoint take the places of files when they are complete. Only the
-// checkpoint that the run goes on from may be replaced: it was read whole.
+// The recording takes the place of a file when it is complete.
 void CheckFilesApart(const RunSetup& setup, std::vector<RunInput> inputs) {
   CheckOutputsApart(setup);
   if (setup.view.record) {
@@ -412,13 +310,6 @@ void CheckFilesApart(const RunSetup& setup, std::vector<RunInput> inputs) {
     const std::string beginning = McapFileWriter::Beginning();
     CheckReplacesItsKind("--record", *setup.view.record, {"a recording by plumbline", beginning});
   }
-  if (!setup.checkpoint) return;
-  CheckNoResult("--checkpoint", *setup.checkpoint, setup.folder);
-  if (setup.resume) {
-    std::erase_if(inputs, [&](const RunInput& input) { return input.path == *setup.resume; });
-  }
-  CheckFileApart("--checkpoint", *setup.checkpoint, inputs);
-  CheckReplacesItsKind("--checkpoint", *setup.checkpoint, {"a checkpoint", kCheckpointMagic});
 }
 
 // Before anything is done: that there is somewhere to listen, and to record to.
@@ -533,9 +424,7 @@ int RunCommand(std::span<const std::string> arguments) {
   System system(input.dataset->calibration(), setup.options);
   system.DescribeSession(PLUMBLINE_VERSION);
   const std::vector<std::string> map_notes = LoadMapInto(system, setup);
-  ResumeFrom(setup, system, input);
   RunFolder folder(setup.folder);
-  CheckPlaceOfCheckpoint(setup);
   OpenViewer(line, setup, system, input);
   WriteOptions(setup, folder);
   IgnoreBrokenPipes();

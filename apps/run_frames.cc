@@ -5,7 +5,6 @@
 #include "plumbline/base/error.h"
 #include "plumbline/features/stereo_pair_check.h"
 #include "plumbline/image/box_filter.h"
-#include "plumbline/io/checkpoint_io.h"
 #include "plumbline/report/summary.h"
 #include "plumbline/slam/pipeline.h"
 #include "plumbline/view/viewer.h"
@@ -54,8 +53,7 @@ std::unique_ptr<FrameInput> OpenFrames(const RunFrames& input, RunMode mode, Fra
   if (input.live != nullptr) {
     return std::make_unique<LiveInput>(input.live, input.range, std::move(say));
   }
-  return std::make_unique<RecordedInput>(
-      input.dataset, input.frames, input.first, mode, std::move(say));
+  return std::make_unique<RecordedInput>(input.dataset, input.frames, mode, std::move(say));
 }
 
 // The work of one run.
@@ -81,11 +79,9 @@ class FrameFeed {
         }) {}
 
   Processed Run() {
-    for (const FrameRecord& record : system_.frames()) journal_.Add(record);
     Report(journal_.Write(folder_));
     Keeping([&] { Feed(); });
     Keeping([&] { pipeline_.Drain(); });
-    if (!result_.failure) Keeping([&] { WriteCheckpoint(); });
     progress_.End();
     NameShortage();
     if (result_.failure && system_.frames().empty()) std::rethrow_exception(result_.failure);
@@ -155,14 +151,6 @@ class FrameFeed {
       if (system_.options().slam.mode == RunMode::kInline) system_.MapOnce();
     } while (input_.viewer->HoldsBack() && GoOn());
     frames_->Delay(Clock::now() - start);
-  }
-
-  // Before the maps are adjusted at the end, which a run that goes on is not to notice.
-  void WriteCheckpoint() {
-    if (!input_.checkpoint || system_.frames().empty()) return;
-    SavedRun run = system_.Save();
-    run.input = input_.description;
-    SaveCheckpoint(*input_.checkpoint, run);
   }
 
   void Report(const std::optional<std::string>& failure) const {
@@ -269,9 +257,9 @@ class FrameFeed {
 KeptViews::KeptViews(const RunFrames& input) {
   live_ = input.live != nullptr;
   const std::size_t frames = input.frames.size();
-  if (input.first >= frames) return;
+  if (frames == 0) return;
   for (std::size_t k = 0; k < kOverlays; ++k) {
-    wanted_.insert(input.first + k * (frames - 1 - input.first) / (kOverlays - 1));
+    wanted_.insert(k * (frames - 1) / (kOverlays - 1));
   }
 }
 

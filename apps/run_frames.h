@@ -31,16 +31,13 @@ struct RunFrames {
   FrameSelection range;                    // of its frames
   int blur = 0;                            // box filter on every image; 0: none
   int save_every_s = 0;                    // map.plb into the part of the folder; 0: never
-  std::size_t first = 0;  // position of the first frame that is new: those before are done
-  std::optional<std::filesystem::path> checkpoint;  // written when all frames are tracked
-  std::string description;                          // for the checkpoint, SavedRun::input
-  std::shared_ptr<Viewer> viewer;                   // that shows the run; may be null
+  std::shared_ptr<Viewer> viewer;          // that shows the run; may be null
 };
 
 // Frames that are shown with their features, kept until there is time to draw them.
 class KeptViews {
  public:
-  // Views are kept of some of the frames, spread over those that are new. Of a live source, whose
+  // Views are kept of some of the frames, spread evenly. Of a live source, whose
   // end nobody knows: of every n-th, where n doubles when there are too many.
   explicit KeptViews(const RunFrames& input);
 

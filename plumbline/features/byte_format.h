@@ -15,21 +15,11 @@
 
 namespace plumbline {
 
-// Transfer (base/byte_format.h) of features and their corrections.
+// Transfer (base/byte_format.h) of features and what is known of their correction.
 
 template <class Archive, Like<StereoCorrection> T>
 void Transfer(Archive& archive, T& correction) {
   StereoCorrection::VisitNumbers(correction, [&](auto& number) { Transfer(archive, number); });
-}
-
-template <class Archive, Like<LensCorrection> T>
-void Transfer(Archive& archive, T& correction) {
-  LensCorrection::VisitNumbers(correction, [&](auto& number) { Transfer(archive, number); });
-}
-
-template <class Archive, Like<FeatureCorrection> T>
-void Transfer(Archive& archive, T& correction) {
-  TransferAll(archive, correction.stereo, correction.lens);
 }
 
 template <class Archive, Like<StereoEvidence> T>

@@ -25,9 +25,8 @@ double LensCorrection::ScaleAt(const Eigen::Vector2d& px) const {
 }
 
 bool LensCorrection::IsPlausible() const {
-  bool finite = true;
-  VisitNumbers(*this, [&](double number) { finite = finite && std::isfinite(number); });
-  return finite && std::abs(border_px_) * inverse_unit_ <= 2 * kLargest;
+  return centre_.allFinite() && std::isfinite(inverse_unit_) && std::isfinite(border_px_) &&
+         std::abs(border_px_) * inverse_unit_ <= 2 * kLargest;
 }
 
 }  // namespace plumbline

@@ -32,15 +32,6 @@ class LensCorrection {
   // Whether it is a number, and not so large that it folds the image over.
   bool IsPlausible() const;
 
-  // Calls visit for each number of which `correction`, const or not, is made.
-  template <class Correction, class Visitor>
-  static void VisitNumbers(Correction& correction, const Visitor& visit) {
-    visit(correction.centre_.x());
-    visit(correction.centre_.y());
-    visit(correction.inverse_unit_);
-    visit(correction.border_px_);
-  }
-
  private:
   Eigen::Vector2d FromCentre(const Eigen::Vector2d& px) const {
     return (px - centre_) * inverse_unit_;

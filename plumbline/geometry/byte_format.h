@@ -3,18 +3,15 @@
 #pragma once
 
 #include "plumbline/base/byte_format.h"
-#include "plumbline/geometry/plucker.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/se3.h"
-#include "plumbline/geometry/segment.h"
-#include "plumbline/geometry/sim3.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 namespace plumbline {
 
-// Transfer (base/byte_format.h) of motions, cameras and lines.
+// Transfer (base/byte_format.h) of motions and cameras.
 
 template <class Archive, class Scalar, int kRows, int kColumns>
 void Transfer(Archive& archive, Eigen::Matrix<Scalar, kRows, kColumns>& matrix) {
@@ -34,21 +31,9 @@ template <class Archive, Like<Rigid3> T>
 void Transfer(Archive& archive, T& motion) {
   TransferAll(archive, motion.rotation, motion.translation);
 }
-template <class Archive, Like<Similarity3> T>
-void Transfer(Archive& archive, T& motion) {
-  TransferAll(archive, motion.scale, motion.rotation, motion.translation);
-}
 template <class Archive, Like<RectifiedCamera> T>
 void Transfer(Archive& archive, T& c) {
   TransferAll(archive, c.fx, c.fy, c.cx, c.cy, c.baseline, c.width, c.height);
-}
-template <class Archive, Like<PluckerLine> T>
-void Transfer(Archive& archive, T& line) {
-  TransferAll(archive, line.moment, line.direction);
-}
-template <class Archive, Like<Segment2> T>
-void Transfer(Archive& archive, T& segment) {
-  TransferAll(archive, segment.start, segment.end);
 }
 
 }  // namespace plumbline

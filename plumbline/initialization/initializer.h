@@ -4,7 +4,6 @@
 
 #include "plumbline/initialization/initial_map.h"
 #include "plumbline/initialization/options.h"
-#include "plumbline/map/state_stream.h"
 
 #include <array>
 #include <optional>
@@ -60,12 +59,7 @@ class Initializer {
   // Forgets all frames: after a loss, or when a map was taken.
   virtual void Reset() = 0;
 
-  // Save writes down all frames and what is known of them; Load restores that in an initializer of
-  // the same options. Load throws InputError for bytes that no initializer can have written.
-  virtual void Save(StateWriter& archive) const = 0;
-  virtual void Load(StateReader& archive) = 0;
-
-  // What has been done so far; counts from zero again after Load.
+  // What has been done so far.
   const InitializationCounts& counts() const { return counts_; }
 
  protected:

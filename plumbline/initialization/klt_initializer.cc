@@ -5,7 +5,6 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/index.h"
 #include "plumbline/base/random.h"
-#include "plumbline/initialization/byte_format.h"
 #include "plumbline/initialization/initial_map.h"
 #include "plumbline/initialization/track_factorization.h"
 #include "plumbline/solvers/parallax.h"
@@ -170,23 +169,5 @@ std::optional<InitialMap> KltInitializer::BuildMap(const std::vector<int>& frame
   std::erase_if(by_feature, [](const FeatureTrack& track) { return track.empty(); });
   return TriangulateAndAdjustMap(camera_, std::move(views), by_feature, {}, kMinPoints);
 }
-
-bool KltInitializer::IsConsistent() const {
-  if (!reference_) return frames_.empty();
-  const std::size_t size = reference_->indexed->features.points.size();
-  if (!tracks_.Fits(size, camera_.width, camera_.height)) return false;
-  for (const Followed& followed : frames_) {
-    if (followed.places.size() != size) return false;
-    // A point that is alive in the newest frame is alive in all frames.
-    for (std::size_t k = 0; k < size; ++k) {
-      if (tracks_.places()[k] && !followed.places[k]) return false;
-    }
-  }
-  return true;
-}
-
-void KltInitializer::Save(StateWriter& archive) const { Transfer(archive, *this); }
-
-void KltInitializer::Load(StateReader& archive) { Transfer(archive, *this); }
 
 }  // namespace plumbline

@@ -29,28 +29,11 @@ class KltInitializer : public Initializer {
 
   InitializationResult Add(const InitializationFrame& frame) override;
   void Reset() override;
-  void Save(StateWriter& archive) const override;
-  void Load(StateReader& archive) override;
-
-  // Returns false for a state that was read and that no initializer can have: places and images do
-  // not fit together.
-  bool IsConsistent() const;
-
-  // Visits all that the initializer keeps (base/byte_format.h).
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.reference_, self.tracks_, self.frames_);
-  }
 
  private:
   struct Followed {
     InitializationFrame frame;
     TrackedPixels places;  // pixels of the reference's features
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.frame, self.places);
-    }
   };
 
   void Start(const InitializationFrame& frame);

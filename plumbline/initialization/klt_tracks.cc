@@ -86,11 +86,6 @@ int KltTracks::alive() const {
       places_.begin(), places_.end(), [](const auto& place) { return place.has_value(); }));
 }
 
-bool KltTracks::Fits(std::size_t points, int width, int height) const {
-  return places_.size() == points && image_ != nullptr && image_->width() == width &&
-         image_->height() == height;
-}
-
 void KltTracks::Follow(std::shared_ptr<const GrayImage> image, HelperThread* helper) {
   std::vector<std::size_t> followed;
   std::vector<cv::Point2f> from;

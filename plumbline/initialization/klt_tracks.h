@@ -38,14 +38,6 @@ class KltTracks {
   // The pixels where the newest image shows the points.
   const TrackedPixels& places() const { return places_; }
   int alive() const;
-  // Whether this can follow so many points on images of this size.
-  bool Fits(std::size_t points, int width, int height) const;
-
-  // Visits all that the tracks keep (base/byte_format.h).
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.image_, self.places_);
-  }
 
  private:
   std::shared_ptr<const GrayImage> image_;

@@ -44,15 +44,6 @@ class ImageMotion {
     return {(*this)(segment.start), (*this)(segment.end)};
   }
 
-  // Returns false for a state that was read and that no ImageMotion can have.
-  bool IsConsistent() const { return places_.size() == leftovers_.size(); }
-
-  // Visits all that the motion keeps (base/byte_format.h).
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.linear_, self.origin_, self.shift_, self.places_, self.leftovers_);
-  }
-
  private:
   Eigen::Vector2d Affine(const Eigen::Vector2d& px) const {
     return linear_ * (px - origin_) + shift_;

@@ -39,21 +39,10 @@ class PriorHypotheses {
   // reconstruction has. What was found by chance is not found twice.
   bool Confirm(const Tracks& tracks, const Reconstruction& reconstruction) const;
 
-  // Visits all that is kept (base/byte_format.h).
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.hypotheses_, self.sure_);
-  }
-
  private:
   struct Hypothesis {
     Rigid3 newest_from_reference;
     std::map<int, double> inverse_distances;  // keyed by feature of the reference
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.newest_from_reference, self.inverse_distances);
-    }
   };
   std::vector<Hypothesis> hypotheses_;
   bool sure_ = false;

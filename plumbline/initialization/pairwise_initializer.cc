@@ -5,7 +5,6 @@
 #include "plumbline/base/index.h"
 #include "plumbline/base/random.h"
 #include "plumbline/base/units.h"
-#include "plumbline/initialization/byte_format.h"
 #include "plumbline/solvers/pairwise_pose.h"
 
 #include <cstddef>
@@ -92,9 +91,5 @@ std::optional<InitialMap> PairwiseInitializer::MakeMap(const std::vector<int>& f
   }
   return map;
 }
-
-void PairwiseInitializer::Save(StateWriter& archive) const { Transfer(archive, *this); }
-
-void PairwiseInitializer::Load(StateReader& archive) { Transfer(archive, *this); }
 
 }  // namespace plumbline

@@ -30,15 +30,6 @@ class PairwiseInitializer : public Initializer {
 
   InitializationResult Add(const InitializationFrame& frame) override;
   void Reset() override { window_.Reset(); }
-  void Save(StateWriter& archive) const override;
-  void Load(StateReader& archive) override;
-
-  // Visits all that the initializer keeps (base/byte_format.h).
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.window_);
-    FrameWindow::VisitMostMatches(self.window_, visit);
-  }
 
  private:
   // Finds the pose of each view and leaves out of the tracks what does not fit it; empty where one

@@ -3,7 +3,6 @@
 #include "plumbline/initialization/rank1_initializer.h"
 
 #include "plumbline/base/units.h"
-#include "plumbline/initialization/byte_format.h"
 
 #include <cstddef>
 #include <utility>
@@ -72,9 +71,5 @@ void Rank1Initializer::Reset() {
   window_.Reset();
   prior_.Clear();
 }
-
-void Rank1Initializer::Save(StateWriter& archive) const { Transfer(archive, *this); }
-
-void Rank1Initializer::Load(StateReader& archive) { Transfer(archive, *this); }
 
 }  // namespace plumbline

@@ -24,15 +24,6 @@ class Rank1Initializer : public Initializer {
 
   InitializationResult Add(const InitializationFrame& frame) override;
   void Reset() override;
-  void Save(StateWriter& archive) const override;
-  void Load(StateReader& archive) override;
-
-  // Visits all that the initializer keeps (base/byte_format.h).
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.window_, self.prior_);
-    FrameWindow::VisitMostMatches(self.window_, visit);
-  }
 
  private:
   RectifiedCamera camera_;

@@ -5,7 +5,6 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/index.h"
 #include "plumbline/base/parallel.h"
-#include "plumbline/initialization/byte_format.h"
 #include "plumbline/initialization/patch_alignment.h"
 
 #include <algorithm>
@@ -204,24 +203,6 @@ void FrameWindow::MoveReference() {
   const std::size_t middle = (old.size() - 1) / 2;
   SetReference(old[middle].frame);
   for (std::size_t i = middle + 1; i < old.size(); ++i) Add(old[i].frame);
-}
-
-bool FrameWindow::IsConsistent() const {
-  if (!reference_) return frames_.empty();
-  const Features& reference = reference_->indexed->features;
-  const std::size_t size = reference.points.size();
-  const bool followed = matching_ == InitialMatching::kImages;
-  const auto has_image = [](const InitializationFrame& frame) { return frame.image != nullptr; };
-  if (followed && (!has_image(*reference_) || warps_.size() != size ||
-                   !flow_.Fits(size, camera_.width, camera_.height))) {
-    return false;
-  }
-  return std::all_of(frames_.begin(), frames_.end(), [&](const MatchedFrame& matched) {
-    const Features& features = matched.frame.indexed->features;
-    return matched.places.size() == size && (!followed || has_image(matched.frame)) &&
-           AreWithin(matched.matches.points, size, features.points.size()) &&
-           AreWithin(matched.matches.lines, reference.lines.size(), features.lines.size());
-  });
 }
 
 std::vector<int> FrameWindow::SelectFrames(int count) const {

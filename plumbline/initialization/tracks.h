@@ -138,40 +138,16 @@ class FrameWindow {
   std::vector<FeatureTrack> PointObservations(const std::vector<int>& frames) const;
   std::vector<FeatureTrack> LineObservations(const std::vector<int>& frames) const;
 
-  // Visits all that the window keeps (base/byte_format.h), except what VisitMostMatches visits,
-  // which saved states have at another place.
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.reference_, self.flow_, self.warps_, self.frames_);
-  }
-  template <class Self, class Visitor>
-  static void VisitMostMatches(Self& self, const Visitor& visit) {
-    visit(self.most_matches_);
-  }
-  // Returns false for a state that no window can have: places, matches and images do not fit
-  // together.
-  bool IsConsistent() const;
-
  private:
   // The pixel where a frame shows a feature of the reference.
   struct Place {
     Eigen::Vector2d px = Eigen::Vector2d::Zero();
     double sigma_px = 0;  // 0: not seen
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.px, self.sigma_px);
-    }
   };
   struct MatchedFrame {
     InitializationFrame frame;
     ReferenceMatches matches;
     std::vector<Place> places;  // one place for each feature of the reference
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.frame, self.matches, self.places);
-    }
     TrackedPixels Pixels() const;
   };
 

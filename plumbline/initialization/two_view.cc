@@ -5,7 +5,6 @@
 #include "plumbline/base/chi2.h"
 #include "plumbline/base/index.h"
 #include "plumbline/base/units.h"
-#include "plumbline/initialization/byte_format.h"
 #include "plumbline/solvers/epipolar_cost.h"
 #include "plumbline/solvers/essential.h"
 #include "plumbline/solvers/homography.h"
@@ -229,10 +228,6 @@ void TwoViewInitializer::Reset() {
   motion_ = {};
 }
 
-void TwoViewInitializer::Save(StateWriter& archive) const { Transfer(archive, *this); }
-
-void TwoViewInitializer::Load(StateReader& archive) { Transfer(archive, *this); }
-
 InitializationResult TwoViewImagesInitializer::Add(const InitializationFrame& frame) {
   using enum InitializationWait;
   InitializationResult result = window_.Offer(frame, 1);
@@ -262,9 +257,5 @@ InitializationResult TwoViewImagesInitializer::Add(const InitializationFrame& fr
   if (!result.map) result.wait = kInaccurate;
   return result;
 }
-
-void TwoViewImagesInitializer::Save(StateWriter& archive) const { Transfer(archive, *this); }
-
-void TwoViewImagesInitializer::Load(StateReader& archive) { Transfer(archive, *this); }
 
 }  // namespace plumbline

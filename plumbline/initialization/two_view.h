@@ -62,14 +62,6 @@ class TwoViewInitializer : public Initializer {
 
   InitializationResult Add(const InitializationFrame& frame) override;
   void Reset() override;
-  void Save(StateWriter& archive) const override;
-  void Load(StateReader& archive) override;
-
-  // Visits all that the initializer keeps (base/byte_format.h).
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.reference_, self.motion_);
-  }
 
  private:
   RectifiedCamera camera_;
@@ -94,15 +86,6 @@ class TwoViewImagesInitializer : public Initializer {
 
   InitializationResult Add(const InitializationFrame& frame) override;
   void Reset() override { window_.Reset(); }
-  void Save(StateWriter& archive) const override;
-  void Load(StateReader& archive) override;
-
-  // Visits all that the initializer keeps (base/byte_format.h).
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.window_);
-    FrameWindow::VisitMostMatches(self.window_, visit);
-  }
 
  private:
   RectifiedCamera camera_;

@@ -4,7 +4,6 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/io/map_file_v1.h"
-#include "plumbline/io/map_sections.h"
 #include "plumbline/io/section_file.h"
 #include "plumbline/map/byte_format.h"
 #include "plumbline/map/map_builder.h"
@@ -183,6 +182,16 @@ void CheckEnd(const ByteReader& reader) {
   }
 }
 
+// Returns the contents of the next section, which must be of this kind.
+std::string NextSectionOfKind(SectionReader& file, std::uint32_t kind) {
+  SectionReader::Section section = file.Next();
+  if (section.kind != kind) {
+    throw InputError(fmt::format(
+        "{}: expected a section of kind {}, found kind {}", file.source(), kind, section.kind));
+  }
+  return std::move(section.contents);
+}
+
 [[noreturn]] void FailMap(const std::string& source, const std::string& what) {
   throw InputError(source + ": expected a map that agrees with itself, found " + what);
 }
@@ -314,8 +323,6 @@ void CheckAtlas(const SavedAtlas& saved, const std::string& source) {
   }
 }
 
-}  // namespace
-
 SavedAtlas ReadMapSections(SectionReader& file) {
   SavedAtlas saved;
   const std::string contents = NextSectionOfKind(file, kContext);
@@ -339,21 +346,7 @@ SavedAtlas ReadMapSections(SectionReader& file) {
   return saved;
 }
 
-void WriteMapSections(const Atlas& atlas,
-                      const AtlasContext& context,
-                      MapId active,
-                      SectionWriter& file) {
-  WriteSections(MapsOf(atlas), context, active.valid() ? active : atlas.active_id(), file);
-}
-
-std::string NextSectionOfKind(SectionReader& file, std::uint32_t kind) {
-  SectionReader::Section section = file.Next();
-  if (section.kind != kind) {
-    throw InputError(fmt::format(
-        "{}: expected a section of kind {}, found kind {}", file.source(), kind, section.kind));
-  }
-  return std::move(section.contents);
-}
+}  // namespace
 
 void SaveAtlas(const std::filesystem::path& path,
                const Atlas& atlas,

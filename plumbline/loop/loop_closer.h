@@ -74,26 +74,6 @@ class LoopCloser {
   // The results of the last call of Try, one for each candidate that was looked at.
   const std::vector<LoopAttempt>& attempts() const { return attempts_; }
 
-  // What the closer needs, beside the map, to go on. Another closer of the same options that gets
-  // the state does what this one would do.
-  struct State {
-    std::vector<LoopEdge> loops;
-    std::vector<LoopEdge> waiting;
-    KeyFrameId last_closed;
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.loops, self.waiting, self.last_closed);
-    }
-  };
-  State state() const { return {loops_, waiting_, last_closed_}; }
-  void SetState(const State& state) {
-    loops_ = state.loops;
-    waiting_ = state.waiting;
-    last_closed_ = state.last_closed;
-    covisible_.Forget();
-  }
-
  private:
   class Drifts;
 

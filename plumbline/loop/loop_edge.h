@@ -30,17 +30,6 @@ struct LoopEvidence {
   double area_share = 0;
   int asked = 0;      // neighbouring keyframes that were asked
   int confirmed = 0;  // asked keyframes that agree
-
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.first_matches,
-          self.inlier_points,
-          self.inlier_lines,
-          self.tested,
-          self.chance_share,
-          self.log10_chance);
-    visit(self.rival_share, self.spread, self.area_share, self.asked, self.confirmed);
-  }
 };
 
 // A landmark around the query and a landmark around the candidate that are one in the world.
@@ -49,11 +38,6 @@ struct LandmarkPair {
   LandmarkId in_query, in_candidate;
 
   friend auto operator<=>(const LandmarkPair&, const LandmarkPair&) = default;
-
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.in_query, self.in_candidate);
-  }
 };
 
 // Two keyframes that see the same place, of one map or of two maps, and their relative pose.
@@ -72,12 +56,6 @@ struct LoopEdge {
   std::vector<LandmarkPair<PointId>> points;
   std::vector<LandmarkPair<LineId>> lines;
   LoopEvidence evidence;
-
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.query, self.candidate, self.candidate_from_query, self.covariance);
-    visit(self.query_unit, self.candidate_unit, self.points, self.lines, self.evidence);
-  }
 };
 
 // Returns the relative pose in the units that the keyframes have today.

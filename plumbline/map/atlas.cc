@@ -71,17 +71,6 @@ MapId Atlas::Current(MapId id) const {
   return id;
 }
 
-void Atlas::SetHistory(const History& history) {
-  joined_ = history.joined;
-  next_map_ = history.next_map;
-  for (const auto& [gone, kept] : joined_) {
-    // The older map is always the one that stays, so that following the joins comes to an end.
-    PLUMBLINE_CHECK(kept < gone && Find(gone) == nullptr, "a map that took in an older one");
-    PLUMBLINE_CHECK(Find(Current(gone)) != nullptr, "a map without place");
-  }
-  for (const auto& [id, map] : maps_) PLUMBLINE_CHECK(id < next_map_, "a map of a later id");
-}
-
 KeyFrameId Atlas::NextKeyFrameId() const {
   KeyFrameId next{0};
   for (const auto& [id, map] : maps_) next = std::max(next, map.NextKeyFrameId());

@@ -44,21 +44,8 @@ class Atlas {
   // The maps that were taken in, each with the map that took it in.
   const std::map<MapId, MapId>& joined() const { return joined_; }
 
-  // What the present maps do not show: which maps were taken in, and the id of the next map. An
-  // atlas needs it to go on as another one would.
-  struct History {
-    std::map<MapId, MapId> joined;
-    MapId next_map{0};
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.joined, self.next_map);
-    }
-  };
-  History history() const { return {joined_, next_map_}; }
-  // Throws BugError where a map would be part of one that the atlas does not have.
-  void SetHistory(const History& history);
-
+  // Returns the id that the next map gets.
+  MapId NextMapId() const { return next_map_; }
   // Returns the first id that no keyframe of any map has had.
   KeyFrameId NextKeyFrameId() const;
 

@@ -34,7 +34,7 @@ std::vector<SessionId> AddSessions(const std::vector<Session>& added,
 
 IdOffsets BehindAll(const Atlas& atlas) {
   IdOffsets offsets;
-  offsets.maps = atlas.history().next_map.value;
+  offsets.maps = atlas.NextMapId().value;
   offsets.keyframes = atlas.NextKeyFrameId().value;
   for (const auto& [id, map] : atlas.maps()) {
     offsets.points = std::max(offsets.points, map.NextPointId().value);

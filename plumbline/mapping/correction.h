@@ -22,20 +22,10 @@ struct Correction {
   struct KeyFramePlace {
     Rigid3 before, after;  // cam_from_world
     double scale = 1;      // lengths around the keyframe, after / before
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.before, self.after, self.scale);
-    }
   };
   struct PointPlace {
     Eigen::Vector3d before = Eigen::Vector3d::Zero();
     Eigen::Vector3d after = Eigen::Vector3d::Zero();
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.before, self.after);
-    }
   };
   std::map<KeyFrameId, KeyFramePlace> keyframes;
   std::map<PointId, PointPlace> points;
@@ -43,11 +33,6 @@ struct Correction {
   std::optional<LensCorrection> lens = {};  // the lens correction of the map, where it is another
 
   bool empty() const { return keyframes.empty(); }
-
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.keyframes, self.points, self.outliers, self.lens);
-  }
 };
 
 // Returns the correction as changes of a map that may have grown, shrunk and been adjusted since.

@@ -116,8 +116,7 @@ std::vector<MappingStep> LocalMapper::Add(Map& map,
 void LocalMapper::GoOnInAnotherMap() { stereo_change_.GiveUp(); }
 
 void LocalMapper::FollowJoins(const Atlas& atlas) {
-  const auto& change = stereo_change_.state();
-  if (change && atlas.Find(change->map) == nullptr) stereo_change_.GiveUp();
+  stereo_change_.FollowJoins(atlas);
   for (auto of_map = young_.begin(); of_map != young_.end();) {
     const MapId current = atlas.Current(of_map->first);
     if (current == of_map->first) {
@@ -141,20 +140,9 @@ Correction LocalMapper::ToLens(const Map& map, const LensCorrection& lens) const
   return BringToLens(map, imaging_, lines_.weights(), options_, lens);
 }
 
-LocalMapper::State LocalMapper::state() const {
-  return {young_,
-          calibrator_.evidence(),
-          adjusted_lines_,
-          stereo_change_.state(),
-          point_aligner_.recent()};
-}
-
 void LocalMapper::SetState(const State& state) {
   young_ = state.young;
   calibrator_.SetEvidence(state.stereo_evidence);
-  adjusted_lines_ = state.adjusted_lines;
-  stereo_change_.SetState(state.stereo_change);
-  point_aligner_.SetRecent(state.recent_patches);
 }
 
 std::vector<MappingStep> LocalMapper::Start(Map& map, const MapEdit& edit, KeyFrameId newest) {
@@ -183,7 +171,7 @@ std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) co
   constexpr int kRounds = 2;  // in the second round, better poses find more segments of each line
   std::vector<MappingStep> times;
   if (stereo_change_.Running(map)) {
-    map.Apply({edit::CorrectFeatures{{stereo_change_.state()->correction, map.correction().lens}}});
+    map.Apply({edit::CorrectFeatures{{stereo_change_.correction(), map.correction().lens}}});
   }
   MappingOptions options = options_;
   for (int round = 0; round < kRounds; ++round) {

@@ -87,16 +87,12 @@ class LocalMapper {
   // Counts the lines that took part in local adjustments so far, over all maps and windows.
   const AdjustedLines& adjusted_lines() const { return adjusted_lines_; }
 
-  // All that the mapper keeps from keyframe to keyframe. A mapper of the same options that gets the
-  // state and the map of another mapper goes on as the other would.
+  // What the mapper knows about its maps beside them, as map files keep it (AtlasContext).
   struct State {
     std::map<MapId, YoungLandmarks> young;
     StereoEvidence stereo_evidence;
-    AdjustedLines adjusted_lines;
-    std::optional<StereoChange::State> stereo_change = {};
-    std::deque<KeyFramePatches> recent_patches = {};
   };
-  State state() const;
+  State state() const { return {young_, calibrator_.evidence()}; }
   void SetState(const State& state);
 
  private:

@@ -62,7 +62,6 @@ class PointAligner {
 
   // The patches of recent keyframes, the oldest keyframe first.
   const std::deque<KeyFramePatches>& recent() const { return recent_; }
-  void SetRecent(std::deque<KeyFramePatches> recent) { recent_ = std::move(recent); }
 
  private:
   struct Reference {

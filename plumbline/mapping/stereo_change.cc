@@ -9,14 +9,17 @@
 namespace plumbline {
 
 void StereoChange::Begin(const Map& map, const StereoCorrection& correction) {
-  SetState(State{map.id(), correction});
+  state_ = State{map.id(), correction};
+  change_ = {};
 }
 
-void StereoChange::GiveUp() { SetState(std::nullopt); }
-
-void StereoChange::SetState(const std::optional<State>& state) {
-  state_ = state;
+void StereoChange::GiveUp() {
+  state_.reset();
   change_ = {};
+}
+
+void StereoChange::FollowJoins(const Atlas& atlas) {
+  if (state_ && atlas.Find(state_->map) == nullptr) GiveUp();
 }
 
 void StereoChange::Step(Map& map) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/features/stereo_correction.h"
+#include "plumbline/map/atlas.h"
 #include "plumbline/map/edit.h"
 #include "plumbline/map/map.h"
 
@@ -24,30 +25,24 @@ class StereoChange {
   // Keyframes prepared in one step, some microseconds each.
   static constexpr std::size_t kSlice = 256;
 
-  // The change that is under way. An object that is given this state and the same map completes the
-  // change with the same step as this one.
-  struct State {
-    MapId map;
-    StereoCorrection correction;
-    KeyFrameId next{0};  // the keyframes before this one are ready
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.map, self.correction, self.next);
-    }
-  };
-
   bool Running(const Map& map) const { return state_ && state_->map == map.id(); }
   // Begins a change of this map and gives up one that is under way.
   void Begin(const Map& map, const StereoCorrection& correction);
   // Does one step of the change that is under way for this map, if there is one.
   void Step(Map& map);
   void GiveUp();
-
-  const std::optional<State>& state() const { return state_; }
-  void SetState(const std::optional<State>& state);
+  // Gives up a change of a map that has been joined to another one, which has its own correction.
+  void FollowJoins(const Atlas& atlas);
+  // The correction that the map is about to get. Only where a change is running.
+  const StereoCorrection& correction() const { return state_->correction; }
 
  private:
+  struct State {
+    MapId map;
+    StereoCorrection correction;
+    KeyFrameId next{0};  // the keyframes before this one are ready
+  };
+
   std::optional<State> state_;
   edit::CorrectFeatures change_;
   // Features that no keyframe has any more. They are freed step by step, since freeing takes time.

@@ -94,23 +94,6 @@ BackgroundAdjustment::Result BackgroundAdjustment::Take() {
   return result;
 }
 
-std::optional<BackgroundAdjustment::Pending> BackgroundAdjustment::Save() {
-  if (job_ == nullptr) return std::nullopt;
-  Complete();
-  if (job_->failure) std::rethrow_exception(job_->failure);
-  return Pending{{job_->id, job_->correction}, job_->due_frame};
-}
-
-void BackgroundAdjustment::Resume(const std::optional<Pending>& pending) {
-  GiveUp();
-  if (!pending) return;
-  job_ = std::make_unique<Job>();
-  job_->id = pending->result.map;
-  job_->due_frame = pending->due_frame;
-  job_->correction = pending->result.correction;
-  job_->ready = true;
-}
-
 std::int64_t AdjustmentDelay(const Map& map) {
   constexpr std::int64_t kAtLeast = 10;
   constexpr std::int64_t kKeyFramesPerFrame = 2;

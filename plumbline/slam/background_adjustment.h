@@ -52,22 +52,6 @@ class BackgroundAdjustment {
   void GiveUp();
   bool Running() const { return job_ != nullptr; }
 
-  // A correction that is computed and not taken yet.
-  struct Pending {
-    Result result;
-    std::int64_t due_frame = 0;
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.result.map, self.result.correction, self.due_frame);
-    }
-  };
-  // Completes the computation and returns the correction without taking it: it stays due as before.
-  // Rethrows what the computation threw.
-  std::optional<Pending> Save();
-  // Goes on with what another BackgroundAdjustment saved.
-  void Resume(const std::optional<Pending>& pending);
-
   // Returns the correction once `frame` has reached the frame at which it is due, and waits for it.
   // Returns it only once.
   std::optional<Result> TakeDue(std::int64_t frame);

@@ -22,12 +22,6 @@ struct Recognition {
   double moved = 0;
   double turned_deg = 0;
   double scale = 1;  // length around the new keyframe after the correction / before
-
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.frame, self.keyframe, self.older, self.points, self.lines);
-    visit(self.log10_chance, self.moved, self.turned_deg, self.scale);
-  }
 };
 
 // A lost frame that was found in a map.
@@ -36,11 +30,6 @@ struct Relocalization {
   KeyFrameId keyframe;  // the keyframe from which the place was found
   int points = 0;       // inliers of the frame's pose
   int lines = 0;
-
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.frame, self.keyframe, self.points, self.lines);
-  }
 };
 
 // Two maps that became one.
@@ -48,11 +37,6 @@ struct MapJoin {
   Recognition place;
   MapId kept;
   MapId gone;
-
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.place, self.kept, self.gone);
-  }
 };
 
 // The events that changed maps at large, each kind in the order of time.

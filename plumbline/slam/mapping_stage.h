@@ -134,17 +134,6 @@ class MappingStage {
   // Waits until all that was submitted is done. Rethrows what mapping threw.
   void WaitUntilDone() { WaitFor(submitted_); }
 
-  // What the stage needs, beside its maps, to go on once everything that was submitted is done:
-  // what tracking is to see of that, and from which frame on.
-  struct Checkpoint;
-  // Completes all work that is left and returns the checkpoint. Earlier frames see no more of that
-  // work than they would without Save, except in a live run, which sees it sooner. Rethrows what
-  // mapping threw.
-  Checkpoint Save();
-  // Goes on as the stage would that gave the checkpoint and had these maps; takes the place of
-  // Continue. Throws InputError where no stage can have given the checkpoint.
-  void Resume(Atlas atlas, const Checkpoint& checkpoint);
-
   // Sets the observer, which is called in the thread that maps. To be called before the first task.
   void Observe(PlaceObserver observer) { places_.Observe(std::move(observer)); }
 
@@ -223,38 +212,18 @@ class MappingStage {
   struct Due {
     std::int64_t frame = 0;  // first frame that is to see the task's result
     std::int64_t task = 0;
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.frame, self.task);
-    }
   };
   struct Version {
     std::int64_t task = 0;  // the last task whose result is in the snapshot
     std::shared_ptr<const MapSnapshot> snapshot;
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.task, self.snapshot);
-    }
   };
   struct Outcome {
     std::int64_t task = 0;
     RelocalizationOutcome outcome;
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.task, self.outcome);
-    }
   };
   struct PlacedKeyFrame {
     KeyFrameId id;
     Rigid3 cam_from_world;
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.id, self.cam_from_world);
-    }
   };
   // The results of a task.
   struct Done {
@@ -270,7 +239,6 @@ class MappingStage {
   void WaitFor(std::int64_t task);
   void WorkUntilStopped();
   void CheckMappingDone() const;
-  static void CheckFits(const Atlas& atlas, const Checkpoint& c);
   void TryNext(std::unique_lock<std::mutex>& lock);
   void DoNext(std::unique_lock<std::mutex>& lock);
   Done DoWork(const Task& task);
@@ -337,34 +305,6 @@ class MappingStage {
   // The thread does not run in inline mode and step by step. It is declared last, so that it ends
   // before what it uses.
   std::jthread worker_;
-};
-
-// All that the stage keeps beside the maps, as a checkpoint holds it.
-struct MappingStage::Checkpoint {
-  LocalMapper::State mapper;
-  std::int64_t submitted = 0;
-  std::int64_t map_begins = 0;
-  std::deque<Due> dues;
-  std::deque<Version> versions;
-  std::deque<Outcome> outcomes;
-  std::set<MapId> changed;
-  std::deque<KeyFrameId> centres;
-  std::map<MapId, PlacedKeyFrame> first_places;
-  std::map<MapId, std::int64_t> lens_asked;
-  std::vector<MappingStep> times;
-  Atlas::History history;
-  PlaceRecognition::State places;
-  std::optional<BackgroundAdjustment::Pending> adjustment;
-
-  // Young landmarks and evidence of the mapper are missing here, because they are kept with the
-  // maps (AtlasContext).
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.mapper.adjusted_lines, self.submitted, self.map_begins, self.dues);
-    visit(self.versions, self.outcomes, self.changed, self.centres, self.times);
-    visit(self.history, self.places, self.adjustment, self.mapper.stereo_change);
-    visit(self.mapper.recent_patches, self.first_places, self.lens_asked);
-  }
 };
 
 }  // namespace plumbline

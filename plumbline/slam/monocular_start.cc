@@ -5,7 +5,6 @@
 #include "plumbline/image/image.h"
 #include "plumbline/initialization/make_initializer.h"
 #include "plumbline/map/snapshot.h"
-#include "plumbline/map/state_format.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -73,13 +72,6 @@ class NearestKeyFrame {
   KeyFrameId id_;
   std::shared_ptr<const MapSnapshot> snapshot_;
 };
-
-// Whether a kept frame has features and, if it has a pose, refers to a keyframe of its map.
-template <class KeptFrame>
-bool Belongs(const KeptFrame& frame, const Map* map) {
-  const bool placed = !frame.reference.valid() || (map != nullptr && map->Knows(frame.reference));
-  return frame.indexed != nullptr && placed;
-}
 
 }  // namespace
 
@@ -199,26 +191,6 @@ void MonocularStart::LocateFramesOf(const Start& start,
     located.push_back(
         {frame->id, start.map, nearest.id(), nearest.Relative(pose->cam_from_world), pose->counts});
   }
-}
-
-void MonocularStart::Save(StateWriter& archive) const {
-  initializer_->Save(archive);
-  VisitFrames(*this, [&](const auto&... fields) { TransferAll(archive, fields...); });
-}
-
-void MonocularStart::Load(StateReader& archive, const Atlas& atlas) {
-  initializer_->Load(archive);
-  VisitFrames(*this, [&](auto&... fields) { TransferAll(archive, fields...); });
-  bool fits = young_keyframes_ == 0 || !starts_.empty();
-  for (const KeptFrame& frame : waiting_) fits = fits && Belongs(frame, nullptr);
-  for (const Start& start : starts_) {
-    const Map* map = atlas.Find(atlas.Current(start.map));
-    if (map == nullptr || map->keyframes().empty()) {
-      FailState(archive, "the start of a map that is not there");
-    }
-    for (const KeptFrame& frame : start.frames) fits = fits && Belongs(frame, map);
-  }
-  if (!fits) FailState(archive, "frames that belong to no map");
 }
 
 }  // namespace plumbline

@@ -5,7 +5,6 @@
 #include "plumbline/base/stop_check.h"
 #include "plumbline/initialization/initializer.h"
 #include "plumbline/map/atlas.h"
-#include "plumbline/map/state_stream.h"
 #include "plumbline/slam/front_end.h"
 #include "plumbline/slam/map_start.h"
 #include "plumbline/slam/options.h"
@@ -70,12 +69,6 @@ class MonocularStart {
   // reached before `stop`.
   std::vector<EarlierFrame> Locate(const Atlas& atlas, const StopCheck& stop = {});
 
-  // Save writes down the whole state; Load restores it in an object of the same options. Load
-  // throws InputError for bytes that Save cannot have written, or that name keyframes that the maps
-  // do not know.
-  void Save(StateWriter& archive) const;
-  void Load(StateReader& archive, const Atlas& atlas);
-
  private:
   struct KeptFrame {
     FrameId id;
@@ -83,26 +76,11 @@ class MonocularStart {
     std::shared_ptr<const IndexedFeatures> indexed;
     KeyFrameId reference;  // invalid while the frame has no pose
     RelativePose from_reference;
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.id, self.stamp_ns, self.indexed, self.reference, self.from_reference);
-    }
   };
   struct Start {
     MapId map;
     std::deque<KeptFrame> frames;  // in order of time
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.map, self.frames);
-    }
   };
-
-  template <class Self, class Visitor>
-  static void VisitFrames(Self& self, const Visitor& visit) {
-    visit(self.waiting_, self.starts_, self.young_keyframes_, self.young_frames_);
-  }
   void GiveUpTheOldest();
   void LocateFramesOf(const Start& start,
                       const Map& map,

@@ -61,26 +61,6 @@ class PlaceRecognition {
   const std::vector<Recognition>& loops() const { return loops_; }
   const std::vector<MapJoin>& joins() const { return joins_; }
 
-  // What this needs to go on, beside the maps, which Follow() is to see.
-  struct State {
-    LoopCloser::State closer;
-    std::vector<Recognition> loops;
-    std::vector<MapJoin> joins;
-    std::set<MapId> withdrawn;
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.closer, self.loops, self.joins, self.withdrawn);
-    }
-  };
-  State state() const { return {closer_.state(), loops_, joins_, withdrawn_}; }
-  void SetState(const State& state) {
-    closer_.SetState(state.closer);
-    loops_ = state.loops;
-    joins_ = state.joins;
-    withdrawn_ = state.withdrawn;
-  }
-
  private:
   std::vector<KeyFrameId> Candidates(const Atlas& atlas, const KeyFrame& keyframe) const;
   std::optional<KeyFrameId> CloseLoop(Atlas& atlas,

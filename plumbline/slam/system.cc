@@ -269,7 +269,7 @@ std::vector<std::string> System::Continue(SavedAtlas saved, bool read_only) {
                                  scale));
   }
   map_ = saved.atlas.active_id();
-  next_map_ = saved.atlas.history().next_map.value;
+  next_map_ = saved.atlas.NextMapId().value;
   first_keyframe_ = saved.atlas.NextKeyFrameId();
   read_only_ = read_only;
   loaded_ = std::move(saved.context);

@@ -9,7 +9,6 @@
 #include "plumbline/map/atlas.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/saved_atlas.h"
-#include "plumbline/map/saved_run.h"
 #include "plumbline/map/session.h"
 #include "plumbline/mapping/adjusted_lines.h"
 #include "plumbline/mapping/mapped_line.h"
@@ -114,8 +113,8 @@ class System {
   const FrameRecord& Track(MeasuredFrame frame);
   // Does what the last tracked frame leaves to do: looks for its lines in the right image where
   // landmarks are to be made of them, hands a keyframe to mapping, asks for the place of a lost
-  // camera. A second call does nothing. Functions that need it done (the next frame, Finish, Save,
-  // a look at the maps) call it themselves. Of the frame's record only the times change.
+  // camera. A second call does nothing. Functions that need it done (the next frame, Finish, a
+  // look at the maps) call it themselves. Of the frame's record only the times change.
   void Complete();
   // Tells of a frame that could not be read or was left out, and returns its record. Throws
   // InputError when it is no later than the one before.
@@ -140,20 +139,6 @@ class System {
   // submitted so far. The call happens in the thread that maps. Changes no result. To be called in
   // the thread that tracks.
   void LookAtMaps(std::function<void(const Atlas&, const MapEvents&)> look);
-  // Returns all that is needed to go on with the next frame as if the run had not stopped: the
-  // maps, what tracking and mapping remember, the records of the frames, and which results are due
-  // when. The frame that is shown (view()) is not part of it. Completes the mapping of the frames
-  // so far, which changes the result of live runs only. To be called in the thread that tracks.
-  // Rethrows what mapping threw.
-  SavedRun Save();
-  // Goes on, before the first frame, as the system would that gave the saved run. In the modes
-  // inline and lockstep the bytes are the same from the next frame on, even where one mode takes
-  // the place of the other. A live run goes on without the earlier snapshots in which a lost camera
-  // is looked for.
-  //
-  // Throws InputError, which says why, where calibration or options differ, or the bytes are no
-  // state of a run. The system must not be used after that.
-  void Resume(SavedRun saved);
 
   // Completes the mapping of all frames so far. Frames that came before a monocular map, or while
   // it was young, are located in the finished map (MonocularStart). Frames from before the map get
@@ -235,16 +220,6 @@ class System {
   Uuid SessionUuid(const MeasuredFrame& first) const;
   // Returns the part of Context() that the thread that tracks knows at any time.
   AtlasContext ContextWithoutMaps() const;
-  // Visits the state that checkpoints keep, without the maps, the mapping stage and the start of a
-  // monocular map.
-  template <class Self, class Visitor>
-  static void VisitRest(Self& self, const Visitor& visit) {
-    visit(self.tracker_, self.map_, self.next_map_, self.first_keyframe_, self.relocalizing_);
-    visit(self.relocalizations_, self.loaded_, self.read_only_, self.frames_, self.session_);
-  }
-  // Throws InputError where the saved stage does not fit.
-  template <class Checkpoint>
-  void CheckResumed(const Atlas& atlas, const Checkpoint& stage) const;
   Rigid3 AsDelivered(const Rigid3& rectified_cam_from_world) const;
   std::shared_ptr<const MapSnapshot> TakeRelocalized(FrameId frame);
   bool TrackedSince(FrameId frame) const;

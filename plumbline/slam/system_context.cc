@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-// What a system's maps are made with, as map files and checkpoints keep it.
+// What a system's maps are made with, as map files keep it.
 #include "plumbline/features/front_end_fingerprint.h"
 #include "plumbline/geometry/calibration_fingerprint.h"
 #include "plumbline/map/byte_format.h"
 #include "plumbline/slam/atlas_context.h"
+#include "plumbline/slam/system.h"
 #include "plumbline/slam/system_stages.h"
 
 namespace plumbline {

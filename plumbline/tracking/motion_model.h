@@ -33,22 +33,11 @@ class MotionModel {
   // Whether the deviations of the last pose (SigmaOfPose) are known and at most `limit`.
   bool LastPoseIsKnownTo(double limit) const;
 
-  // Visits all that the model keeps from frame to frame (base/byte_format.h).
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.velocity_, self.spread_);
-  }
-
  private:
   // The covariance of the last pose, and the depth of the scene there.
   struct Spread {
     Matrix6d covariance;
     double scene_depth = 0;
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.covariance, self.scene_depth);
-    }
   };
 
   std::optional<Vector6d> velocity_;  // velocity of the camera as a left tangent, per second

@@ -19,12 +19,6 @@ namespace plumbline {
 struct LastFrame {
   Frame frame;
   FrameAssociation association;
-
-  // Whether the matches belong to the features of this frame.
-  bool IsConsistent() const {
-    return frame.points.size() == association.matches.point_of_feature.size() &&
-           frame.lines.size() == association.matches.line_of_feature.size();
-  }
 };
 
 // A pose that was found for a frame, with the matches that it was found by.

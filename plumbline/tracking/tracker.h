@@ -25,11 +25,6 @@ namespace plumbline {
 
 // Whether the tracker has no map yet, follows the camera, or has lost it.
 enum class TrackerState { kInitializing, kTracking, kLost };
-constexpr auto EnumNames(std::type_identity<TrackerState>) {
-  return std::array{std::pair{TrackerState::kInitializing, "initializing"},
-                    std::pair{TrackerState::kTracking, "tracking"},
-                    std::pair{TrackerState::kLost, "lost"}};
-}
 
 // Why a frame has no pose.
 enum class TrackingFailure {
@@ -179,14 +174,6 @@ class Tracker {
   // Whether there is a last pose, so that a snapshot is needed for the next frame.
   bool follows() const { return last_.has_value(); }
 
-  // Visits all that the tracker keeps from frame to frame (base/byte_format.h).
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.state_, self.last_, self.motion_, self.scores_);
-    visit(self.next_keyframe_, self.newest_keyframe_, self.frames_since_keyframe_);
-    visit(self.lost_frames_, self.use_, self.trial_keyframes_, self.blind_frames_, self.asked_);
-  }
-
  private:
   // Whether the last frame takes the place of the map.
   bool IsOdometry() const { return options_.reference == TrackingReference::kLastFrame; }
@@ -195,21 +182,11 @@ class Tracker {
   struct Anchor {
     KeyFrameId keyframe;
     RelativePose relative;
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.keyframe, self.relative);
-    }
   };
   struct Tracked : LastFrame {
     Anchor anchor;
     // Used while the frame itself is a keyframe that is not in the map yet.
     Anchor parent;
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.frame, self.association, self.anchor, self.parent);
-    }
   };
 
   // A pose, or why there is none.

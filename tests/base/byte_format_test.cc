@@ -5,11 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <deque>
 #include <limits>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -106,59 +104,6 @@ TEST(ByteFormat, RefusesKeysOutOfOrder) {
   ByteReader reader = ReaderOf(writer.bytes());
   std::map<int, int> map;
   EXPECT_THROW(Transfer(reader, map), InputError);
-}
-
-enum class Fruit { kApple = 1, kPear = 4 };
-constexpr auto EnumNames(std::type_identity<Fruit>) {
-  return std::array{std::pair{Fruit::kApple, "apple"}, std::pair{Fruit::kPear, "pear"}};
-}
-
-TEST(ByteFormat, KnowsQueuesSetsAndChoices) {
-  const std::deque<int> queue{3, 1, 2};
-  EXPECT_EQ(ThereAndBack(queue), queue);
-  const std::set<LineId> set{LineId{1}, LineId{8}};
-  EXPECT_EQ(ThereAndBack(set), set);
-  EXPECT_EQ(ThereAndBack(Fruit::kPear), Fruit::kPear);
-}
-
-TEST(ByteFormat, RefusesSetsOutOfOrderAndUnknownChoices) {
-  ByteWriter writer;
-  Transfer(writer, std::vector<int>{2, 2});
-  ByteReader reader = ReaderOf(writer.bytes());
-  std::set<int> set;
-  EXPECT_THROW(Transfer(reader, set), InputError);
-  ByteWriter number;
-  number(std::int32_t{2});
-  ByteReader of_number = ReaderOf(number.bytes());
-  Fruit fruit = Fruit::kApple;
-  EXPECT_THROW(Transfer(of_number, fruit), InputError);
-}
-
-class Interval {
- public:
-  Interval() = default;
-  Interval(int from, int to) : from_(from), to_(to) {}
-  bool IsConsistent() const { return from_ <= to_; }
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.from_, self.to_);
-  }
-  friend bool operator==(const Interval&, const Interval&) = default;
-
- private:
-  int from_ = 0;
-  int to_ = 0;
-};
-
-TEST(ByteFormat, WritesAndReadsWhatAClassShows) {
-  const Interval interval(2, 5);
-  EXPECT_EQ(ThereAndBack(interval), interval);
-  ByteWriter writer;
-  const Interval backwards(5, 2);
-  Transfer(writer, backwards);
-  ByteReader reader = ReaderOf(writer.bytes());
-  Interval back;
-  EXPECT_THROW(Transfer(reader, back), InputError);
 }
 
 }  // namespace

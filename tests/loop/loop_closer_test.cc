@@ -186,21 +186,5 @@ TEST(LoopCloser, DoesNotPauseForALoopOfAnotherMap) {
   EXPECT_EQ(closer.state().last_closed, kQuery);
 }
 
-TEST(LoopCloser, ClosesAgainWhatItForgot) {
-  const LoopScene scene = Drifted();
-  LoopOptions options;
-  options.closing.pause = 0;
-  LoopCloser closer(scene.Imaging(), options);
-  const std::vector<KeyFrameId> candidates{KeyFrameId{5}};
-  const auto closure = closer.Try(scene.map, kQuery, candidates);
-  ASSERT_TRUE(closure);
-  closer.SetState({});
-  // The map as it was before: the same loop is found.
-  const auto again = closer.Try(scene.map, kQuery, candidates);
-  ASSERT_TRUE(again);
-  ExpectSamePoses(scene.map, closure->edit, again->edit);
-  EXPECT_EQ(CountOf<edit::MergePoints>(again->edit), CountOf<edit::MergePoints>(closure->edit));
-}
-
 }  // namespace loop_closer_test
 }  // namespace plumbline

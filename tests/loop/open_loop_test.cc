@@ -87,7 +87,7 @@ TEST_F(OpenLoopTest, IsClosedAgain) {
   const Closed first = Close();
   const double closed = WorstPlace(scene_);
   scene_.map.Apply(OpenLoop(scene_.map, closer_->loops().front()));
-  closer_->SetState({});
+  closer_ = std::make_unique<LoopCloser>(scene_.Imaging(), options_);
   const Closed again = Close();
   EXPECT_TRUE(AreTied(scene_.map));
   EXPECT_GT(again.merged_points, 0.9 * first.merged_points);

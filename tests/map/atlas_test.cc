@@ -115,18 +115,5 @@ TEST(Atlas, WhatAMapWasCalledStandsForTheOneThatTookItIn) {
   EXPECT_THROW(atlas.Join(MapId{3}, MapId{0}, {}), BugError);
 }
 
-TEST(Atlas, GoesOnWithTheHistoryOfAnotherOne) {
-  Atlas atlas = TwoMaps();
-  atlas.Join(MapId{0}, MapId{1}, {});
-  Atlas other;
-  other.Adopt(*atlas.Find(MapId{0}));
-  EXPECT_EQ(other.Current(MapId{1}), MapId{1});
-  other.SetHistory(atlas.history());
-  EXPECT_EQ(other.Current(MapId{1}), MapId{0});
-  EXPECT_EQ(other.Start().id(), MapId{2});
-  Atlas without;
-  EXPECT_THROW(without.SetHistory(atlas.history()), BugError);
-}
-
 }  // namespace
 }  // namespace plumbline

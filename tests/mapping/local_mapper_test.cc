@@ -53,9 +53,8 @@ class MapperRun {
     const SavedAtlas saved = LoadAtlas(file);
     map_ = saved.atlas.active();
     mapper_ = LocalMapper(world_.Imaging(), {}, options_);
-    mapper_.SetState({{{map_.id(), saved.context.maps.at(map_.id()).young}},
-                      saved.context.stereo_evidence,
-                      AdjustedLines()});
+    mapper_.SetState(
+        {{{map_.id(), saved.context.maps.at(map_.id()).young}}, saved.context.stereo_evidence});
   }
 
   // The right images of keyframes to come are displaced.
@@ -262,8 +261,7 @@ TEST(LocalMapper, RemembersTheYoungLandmarksOfMapsThatAreLeftAndJoined) {
   mapper.SetState({{{MapId{0}, {{PointId{1}}, {}}},
                     {MapId{1}, {{PointId{2}}, {LineId{3}}}},
                     {MapId{2}, {{PointId{4}}, {}}}},
-                   {},
-                   AdjustedLines()});
+                   {}});
   mapper.GoOnInAnotherMap();
   atlas.Join(MapId{0}, MapId{1}, {});
   mapper.FollowJoins(atlas);
@@ -272,21 +270,6 @@ TEST(LocalMapper, RemembersTheYoungLandmarksOfMapsThatAreLeftAndJoined) {
   EXPECT_EQ(young.at(MapId{0}).points, (std::vector{PointId{1}, PointId{2}}));
   EXPECT_EQ(young.at(MapId{0}).lines, std::vector{LineId{3}});
   EXPECT_EQ(young.at(MapId{2}).points, std::vector{PointId{4}});
-}
-
-// The map that took it in has a correction of its own.
-TEST(LocalMapper, GivesUpTheStereoChangeOfAMapThatWasJoined) {
-  Atlas atlas;
-  for (int i = 0; i < 2; ++i) atlas.Start();
-  LocalMapper mapper(SyntheticWorld().Imaging(), {}, {});
-  LocalMapper::State state;
-  state.stereo_change = StereoChange::State{MapId{1}, {}, KeyFrameId{7}};
-  mapper.SetState(state);
-  mapper.FollowJoins(atlas);
-  EXPECT_TRUE(mapper.state().stereo_change);
-  atlas.Join(MapId{0}, MapId{1}, {});
-  mapper.FollowJoins(atlas);
-  EXPECT_FALSE(mapper.state().stereo_change);
 }
 
 }  // namespace

@@ -148,22 +148,6 @@ TEST(PointAligner, NoiseLeavesMoreToTheCorner) {
   EXPECT_GT(moved[1], 0.2 * moved[0]);
 }
 
-TEST(PointAligner, GoesOnFromWhatItRemembers) {
-  WallMap wall;
-  PointAligner aligner(OneCamera(), 1.2), other(OneCamera(), 1.2);
-  aligner.Align(wall.map, wall.Add(0, {0.3, 0.1}, 0), PyramidOf(View(0)));
-  const KeyFrameId id = wall.Add(2, {0.6, 0.6}, 2);
-  EXPECT_EQ(other.Align(wall.map, id, PyramidOf(View(2))), nullptr);
-  other.SetRecent(aligner.recent());
-  const auto one = aligner.Align(wall.map, id, PyramidOf(View(2))),
-             two = other.Align(wall.map, id, PyramidOf(View(2)));
-  ASSERT_NE(one, nullptr);
-  ASSERT_NE(two, nullptr);
-  for (std::size_t i = 0; i < kPlaces.size(); ++i) {
-    EXPECT_EQ(one->features.points[i].px, two->features.points[i].px);
-  }
-}
-
 TEST(PointAligner, LeavesWhatDoesNotLookAlike) {
   WallMap wall;
   PointAligner aligner(OneCamera(), 1.2);

@@ -76,18 +76,18 @@ TEST(StereoChange, TakesEffectWhenAllKeyFramesAreReady) {
   EXPECT_EQ(before.use_count(), 1);
 }
 
-TEST(StereoChange, GoesOnFromWhatItWas) {
-  Map map = MapOf(kSlice + 10);
-  StereoChange change, other;
-  change.Begin(map, By(0.5));
-  change.Step(map);
-  Map copy = map;
-  other.SetState(change.state());
-  change.Step(map);
-  other.Step(copy);
-  EXPECT_DOUBLE_EQ(CorrectionOf(map), 0.5);
-  EXPECT_DOUBLE_EQ(CorrectionOf(copy), 0.5);
-  EXPECT_FALSE(other.state());
+// The map that took it in has a correction of its own.
+TEST(StereoChange, IsGivenUpWhereTheMapIsJoinedToAnotherOne) {
+  Atlas atlas;
+  for (int i = 0; i < 2; ++i) atlas.Start();
+  const Map changing(MapId{1});
+  StereoChange change;
+  change.Begin(changing, By(0.5));
+  change.FollowJoins(atlas);
+  EXPECT_TRUE(change.Running(changing));
+  atlas.Join(MapId{0}, MapId{1}, {});
+  change.FollowJoins(atlas);
+  EXPECT_FALSE(change.Running(changing));
 }
 
 TEST(StereoChange, IsOfOneMapAndMayBeGivenUp) {

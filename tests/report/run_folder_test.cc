@@ -116,14 +116,14 @@ TEST(CheckNoResult, RefusesThePlacesOfResults) {
   const fs::path out = scratch / "out";
   scratch.Write("out/notes.txt", "mine");
   for (const char* name : {"map.plb", "trajectory_map3.txt", "../out/map.plb", ".plumbline-run"}) {
-    EXPECT_THAT(MessageOf([&] { CheckNoResult("--checkpoint", out / name, out); }),
+    EXPECT_THAT(MessageOf([&] { CheckNoResult("--record", out / name, out); }),
                 HasSubstr("expected another name, found one that the results in "))
         << name;
   }
   EXPECT_THAT(MessageOf([&] { CheckNoResult("--record", out / ".part/run.mcap", out); }),
               StartsWith("--record "));
   for (const fs::path& other : {out / "run.plbrun", scratch / "map.plb", out / "old/map.plb"}) {
-    CheckNoResult("--checkpoint", other, out);
+    CheckNoResult("--record", other, out);
   }
 }
 
@@ -286,10 +286,10 @@ TEST(CheckFileApart, RefusesToReplaceWhatIsRead) {
   const fs::path map = scratch.Write("run/map.plb", "");
   const std::vector<RunInput> inputs = {{scratch / "data"}, {map, true}};
   const auto message = [&](const fs::path& file) {
-    return MessageOf([&] { CheckFileApart("--checkpoint", file, inputs); });
+    return MessageOf([&] { CheckFileApart("--record", file, inputs); });
   };
   EXPECT_THAT(message(image), HasSubstr("outside of " + (scratch / "data").string()));
-  EXPECT_THAT(message(scratch / "data/new"), HasSubstr("--checkpoint"));
+  EXPECT_THAT(message(scratch / "data/new"), HasSubstr("--record"));
   EXPECT_THAT(message(map), HasSubstr("another file than one that is read"));
   EXPECT_EQ(message(scratch / "run/new"), "no error");
   EXPECT_EQ(message(scratch / "database"), "no error");

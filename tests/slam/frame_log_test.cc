@@ -4,8 +4,6 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/random.h"
-#include "plumbline/map/state_stream.h"
-#include "plumbline/slam/byte_format.h"
 
 #include "tests/support/random_geometry.h"
 
@@ -143,20 +141,6 @@ TEST(FrameLog, AnHourTakesLessThan45Megabytes) {
     log.Add(record);
   }
   EXPECT_LT(log.Memory(), 45'000'000U);
-}
-
-TEST(FrameLog, ComesBackFromTheBytesOfACheckpoint) {
-  const std::vector<FrameRecord> records = Records(40);
-  const FrameLog log = LogOf(records);
-  StateWriter writer;
-  Transfer(writer, log);
-  const std::string bytes = writer.Take();
-  const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
-  StateReader reader({data, bytes.size()}, "state", {});
-  FrameLog read;
-  Transfer(reader, read);
-  ASSERT_EQ(read.size(), records.size());
-  for (std::size_t i = 0; i < records.size(); ++i) ExpectSame(read[i], records[i]);
 }
 
 }  // namespace

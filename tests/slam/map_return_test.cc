@@ -37,15 +37,6 @@ class Show {
   void Elsewhere(int frames) {
     for (int i = 0; i < frames; ++i) Process(MovingPoster::StrangeFrame(0));
   }
-  // Like Stretch; before each frame, another system goes on from what this one saves.
-  void StretchWithPauses(int first) {
-    for (int i = 0; i < kStretch; ++i) {
-      auto next = std::make_unique<System>(MovingPoster::MakeCalibration(), system_->options());
-      next->Resume(system_->Save());
-      system_ = std::move(next);
-      Process(poster_.Frame(first + i));
-    }
-  }
   // Left end, long elsewhere, right end, a moment elsewhere, left end again.
   void AwayAndBack() {
     Stretch(kLeftEnd);
@@ -141,28 +132,6 @@ TEST(MapReturn, ARunThatChangesNothingIsFoundInAnyMapOfAnAtlas) {
   EXPECT_EQ(localized.frames().back().status, FrameStatus::kTracked);
   EXPECT_EQ(localized.frames().back().map, MapId{0});
   EXPECT_EQ(localized.atlas().active_id(), MapId{1});
-  System resumed(MovingPoster::MakeCalibration(), InMode(RunMode::kInline));
-  resumed.Resume(localized.Save());
-  resumed.Process(poster.Frame(kLeftEnd + kStretch));
-  EXPECT_EQ(resumed.frames().back().map, MapId{0});
-}
-
-// A pause between the moment when the camera is found and that when its map is active again, too.
-TEST(MapReturn, ARunMayBePausedAtAnyFrame) {
-  Show show(RunMode::kInline), paused(RunMode::kInline);
-  show.AwayAndBack();
-  paused.Stretch(kLeftEnd);
-  paused.Elsewhere(kAway);
-  paused.Stretch(kRightEnd);
-  paused.Elsewhere(kShortlyAway);
-  paused.StretchWithPauses(kLeftEnd);
-  show.system().Finish();
-  paused.system().Finish();
-  EXPECT_EQ(paused.Newest().map, MapId{0});
-  const Trajectory a = show.system().FinalTrajectory(MapId{0});
-  const Trajectory b = paused.system().FinalTrajectory(MapId{0});
-  ASSERT_EQ(a.size(), b.size());
-  EXPECT_EQ(a.back().world_from_camera.translation, b.back().world_from_camera.translation);
 }
 
 TEST(MapReturn, LockstepDoesWhatInlineDoes) {

@@ -30,8 +30,6 @@ class Watcher : public Initializer {
     return result;
   }
   void Reset() override {}
-  void Save(StateWriter&) const override {}
-  void Load(StateReader&) override {}
 
  private:
   std::map<std::int64_t, std::set<const void*>>& seen_;

@@ -78,8 +78,6 @@ class FakeInitializer : public Initializer {
     return result;
   }
   void Reset() override {}
-  void Save(StateWriter&) const override {}
-  void Load(StateReader&) override {}
 
  private:
   std::optional<int> when_;
