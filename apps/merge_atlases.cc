@@ -3,7 +3,6 @@
 #include "apps/merge_atlases.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/features/front_end_fingerprint.h"
 #include "plumbline/geometry/camera_difference.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/map/gathering.h"
@@ -104,7 +103,7 @@ MergedAtlases MergeAtlases(NamedAtlas first,
   CheckHasMap(second);
   CheckCameras(first, second);
   for (const std::string& difference :
-       Differences(first.saved.context.front_end, second.saved.context.front_end)) {
+       FrontEndDifferences(first.saved.context, second.saved.context)) {
     remark(fmt::format("{}: {} (now: {})", first.name, difference, second.name));
   }
   GatheredAtlases gathered = Gather(std::move(first.saved), second.saved);

@@ -12,7 +12,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -102,24 +101,6 @@ requires(Archive::kReading) void Transfer(Archive& archive, std::pair<A, B>& pai
 template <class Archive, class A, class B>
 requires(!Archive::kReading) void Transfer(Archive& archive, const std::pair<A, B>& pair) {
   TransferAll(archive, pair.first, pair.second);
-}
-
-template <class Archive, class T>
-requires(Archive::kReading) void Transfer(Archive& archive, std::optional<T>& item) {
-  std::uint8_t present = 0;
-  archive(present);
-  item.reset();
-  if (present == 0) return;
-  // Not emplace(): clang 14 takes a nested class with default member values for one without a
-  // default constructor.
-  T value = T();
-  Transfer(archive, value);
-  item = std::move(value);
-}
-template <class Archive, class T>
-requires(!Archive::kReading) void Transfer(Archive& archive, const std::optional<T>& item) {
-  archive(std::uint8_t{item ? std::uint8_t{1} : std::uint8_t{0}});
-  if (item) Transfer(archive, *item);
 }
 
 template <class Archive, class T>

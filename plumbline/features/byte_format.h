@@ -3,7 +3,6 @@
 #pragma once
 
 #include "plumbline/features/feature_correction.h"
-#include "plumbline/features/front_end_fingerprint.h"
 #include "plumbline/features/stereo_evidence.h"
 #include "plumbline/features/types.h"
 #include "plumbline/geometry/byte_format.h"
@@ -25,11 +24,6 @@ void Transfer(Archive& archive, T& correction) {
 template <class Archive, Like<StereoEvidence> T>
 void Transfer(Archive& archive, T& evidence) {
   TransferAll(archive, evidence.information, evidence.weighted, evidence.moments);
-}
-
-template <class Archive, Like<FrontEndFingerprint> T>
-void Transfer(Archive& archive, T& fingerprint) {
-  TransferAll(archive, fingerprint.feature_format, fingerprint.settings);
 }
 
 // Transfers the descriptors of a list, one after the other. `get` returns the descriptor of an

@@ -15,10 +15,15 @@
 #include "plumbline/image/image.h"
 #include "plumbline/image/pyramid.h"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace plumbline {
+
+// The version of the features. It is increased whenever the code measures or describes features in
+// a way that makes those of earlier versions match less well.
+inline constexpr std::int32_t kFeatureFormat = 1;
 
 struct FeatureOptions {
   bool points = true;

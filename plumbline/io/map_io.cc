@@ -3,6 +3,7 @@
 #include "plumbline/io/map_io.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/features/extractor.h"
 #include "plumbline/io/map_file_v1.h"
 #include "plumbline/io/section_file.h"
 #include "plumbline/map/byte_format.h"
@@ -391,7 +392,7 @@ void SaveMap(const std::filesystem::path& path,
 
 SavedMap SavedMapOf(Map map, const AtlasContext& context, std::uint32_t file_version) {
   SavedMap saved{context.camera, context.rectified_from_left, std::move(map), file_version};
-  if (context.front_end.feature_format == kFeatureFormat) saved.octave_scale = context.octave_scale;
+  if (context.feature_format == kFeatureFormat) saved.octave_scale = context.octave_scale;
   return saved;
 }
 

@@ -14,6 +14,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -57,8 +59,12 @@ void Transfer(Archive& archive, T& context) {
 }
 template <class Archive, Like<AtlasContext> T>
 void Transfer(Archive& archive, T& c) {
-  TransferAll(archive, c.camera, c.rectified_from_left, c.octave_scale, c.calibration);
-  TransferAll(archive, c.stereo_evidence, c.front_end, c.options_yaml, c.sessions, c.maps);
+  // Version 0.2.0 kept a number made of the calibration and the options of the front end as well.
+  std::uint64_t calibration = 0;
+  std::map<std::string, std::string> front_end;
+  TransferAll(archive, c.camera, c.rectified_from_left, c.octave_scale, calibration);
+  TransferAll(archive, c.stereo_evidence, c.feature_format, front_end, c.options_yaml);
+  TransferAll(archive, c.sessions, c.maps);
 }
 template <class Archive, Like<TrackingScore> T>
 void Transfer(Archive& archive, T& score) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/map/gathering.h"
 
+#include "plumbline/geometry/camera_difference.h"
 #include "plumbline/map/renumbering.h"
 
 #include <algorithm>
@@ -55,6 +56,10 @@ void Add(const YoungLandmarks& added, const IdOffsets& offsets, YoungLandmarks& 
   AddBehind(added.lines, offsets, young.lines);
 }
 
+bool IsSameCamera(const AtlasContext& a, const AtlasContext& b) {
+  return !CameraDifference({a.camera, a.rectified_from_left}, {b.camera, b.rectified_from_left});
+}
+
 void Add(const StereoEvidence& added, StereoEvidence& evidence) {
   evidence.information += added.information;
   evidence.weighted += added.weighted;
@@ -73,8 +78,7 @@ GatheredAtlases Gather(SavedAtlas first, const SavedAtlas& second) {
   offsets.sessions = AddSessions(SessionsOf(second.context), context.sessions);
   const bool of_other_sessions =
       context.sessions.size() == sessions_of_first + offsets.sessions.size();
-  if (of_other_sessions && context.calibration != 0 &&
-      context.calibration == second.context.calibration) {
+  if (of_other_sessions && IsSameCamera(context, second.context)) {
     Add(second.context.stereo_evidence, context.stereo_evidence);
   }
   for (const auto& [id, map] : second.atlas.maps()) atlas.Adopt(Renumbered(map, offsets));

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/features/front_end_fingerprint.h"
 #include "plumbline/features/stereo_evidence.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/map/atlas.h"
@@ -29,13 +28,12 @@ struct AtlasContext {
   RectifiedCamera camera;  // camera with which all features were measured
   Eigen::Quaterniond rectified_from_left = Eigen::Quaterniond::Identity();
   double octave_scale = 1.2;  // scale between octaves of the points' image pyramid
-  // The rig from which the evidence comes (FingerprintOf(Calibration)); 0: unknown. With another
-  // calibration the evidence is worth nothing; the corrections that maps have stay right.
-  std::uint64_t calibration = 0;
+  // What is known of the pair of cameras. It is worth something only to a run with the same
+  // rectified camera, turned against the left one in the same way (CameraDifference).
   StereoEvidence stereo_evidence;
-  FrontEndFingerprint front_end;
-  std::string options_yaml;       // options that decided about the results
-  std::vector<Session> sessions;  // index: KeyFrame::session
+  std::int32_t feature_format = 0;  // kFeatureFormat of the program that measured; 0: unknown
+  std::string options_yaml;         // options that decided about the results
+  std::vector<Session> sessions;    // index: KeyFrame::session
   std::map<MapId, MapContext> maps;
 };
 

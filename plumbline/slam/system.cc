@@ -3,12 +3,11 @@
 #include "plumbline/slam/system.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/features/front_end_fingerprint.h"
-#include "plumbline/geometry/calibration_fingerprint.h"
 #include "plumbline/geometry/camera_difference.h"
 #include "plumbline/geometry/covariance.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/slam/atlas_context.h"
+#include "plumbline/slam/saved_options.h"
 #include "plumbline/slam/system_stages.h"
 #include "plumbline/tracking/projected_matches.h"
 
@@ -276,12 +275,13 @@ std::vector<std::string> System::Continue(SavedAtlas saved, bool read_only) {
   tracker_.BeginLost({first_keyframe_, read_only, options_.relocalization.patience});
   LocalMapper::State mapper;
   mapper.young = YoungOf(*loaded_);
-  if (loaded_->calibration == FingerprintOf(rectifier().calibration(), camera())) {
+  const AtlasContext now = ContextWithoutMaps();
+  if (!CameraDifference({loaded_->camera, loaded_->rectified_from_left},
+                        {now.camera, now.rectified_from_left})) {
     mapper.stereo_evidence = loaded_->stereo_evidence;
   }
   mapping_.Continue(std::move(saved.atlas), mapper);
-  std::vector<std::string> notes =
-      Differences(loaded_->front_end, FingerprintOf(options_.features));
+  std::vector<std::string> notes = FrontEndDifferences(*loaded_, now);
   for (std::string& note : notes) note = "the map was made with another front end: " + note;
   return notes;
 }

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 // What a system's maps are made with, as map files keep it.
-#include "plumbline/features/front_end_fingerprint.h"
-#include "plumbline/geometry/calibration_fingerprint.h"
 #include "plumbline/map/byte_format.h"
 #include "plumbline/slam/atlas_context.h"
 #include "plumbline/slam/system.h"
@@ -12,9 +10,9 @@ namespace plumbline {
 
 Uuid System::SessionUuid(const MeasuredFrame& first) const {
   ByteWriter contents;
-  const std::uint64_t rig = FingerprintOf(rectifier().calibration(), camera());
+  const Eigen::Quaterniond turn = rectifier().rectified_left_from_left();
   const std::string options = ResultOptionsYaml(options_);
-  TransferAll(contents, rig, options, first.stamp_ns, first.indexed->features);
+  TransferAll(contents, camera(), turn, options, first.stamp_ns, first.indexed->features);
   return UuidOf(contents.bytes());
 }
 
@@ -27,8 +25,7 @@ AtlasContext System::ContextWithoutMaps() const {
   context.camera = camera();
   context.rectified_from_left = rectifier().rectified_left_from_left();
   context.octave_scale = options_.features.orb.scale_factor;
-  context.calibration = FingerprintOf(rectifier().calibration(), camera());
-  context.front_end = FingerprintOf(options_.features);
+  context.feature_format = kFeatureFormat;
   context.options_yaml = ResultOptionsYaml(options_);
   context.sessions.push_back(session());
   return context;

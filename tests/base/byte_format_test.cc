@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,7 +51,7 @@ TEST(ByteFormat, GivesBackWhatWasWritten) {
   EXPECT_EQ(ThereAndBack(PointId{7}), PointId{7});
   const std::string text("a\0b", 3);
   EXPECT_EQ(ThereAndBack(text), text);
-  const std::vector<std::optional<std::int64_t>> list{1, std::nullopt, -3};
+  const std::vector<std::int64_t> list{1, -3};
   EXPECT_EQ(ThereAndBack(list), list);
   const std::map<LineId, std::array<std::uint64_t, 2>> by_id{{LineId{1}, {2, 3}},
                                                              {LineId{4}, {5, 6}}};

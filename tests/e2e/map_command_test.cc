@@ -116,7 +116,7 @@ TEST(MapMerge, FindsWhatBothMapsShow) {
   const SavedAtlas a = LoadAtlas(folder / "a/map.plb"), b = LoadAtlas(folder / "b/map.plb");
   const SavedAtlas merged = LoadAtlas(both);
   EXPECT_EQ(merged.context.sessions.size(), 2U);
-  EXPECT_EQ(merged.context.front_end, a.context.front_end);
+  EXPECT_EQ(merged.context.feature_format, a.context.feature_format);
   const Map& map = merged.atlas.active();
   map.CheckInvariants();
   EXPECT_EQ(map.keyframes().size(),

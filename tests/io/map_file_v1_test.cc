@@ -43,7 +43,6 @@ TEST(MapFileV1, IsReadAsAnAtlasOfOneMap) {
   EXPECT_EQ(loaded.context.camera.fy, 451);
   EXPECT_EQ(loaded.context.camera.height, 480);
   EXPECT_EQ(loaded.context.rectified_from_left.w(), 0.8);
-  EXPECT_EQ(loaded.context.calibration, 0U);
   const Map& map = loaded.atlas.active();
   map.CheckInvariants();
   ASSERT_EQ(map.keyframes().size(), 3U);

@@ -119,11 +119,10 @@ inline SavedAtlas MakeSavedAtlas() {
   c.camera = kMapCamera;
   c.rectified_from_left = kMapRotation;
   c.octave_scale = 1.3;
-  c.calibration = 1'234'567'890'123'456'789U;
   c.stereo_evidence.information = Matrix6d::Identity() / 3;
   c.stereo_evidence.weighted = Vector6d::Constant(0.1);
   c.stereo_evidence.moments = Matrix6d::Constant(7);
-  c.front_end = FingerprintOf({});
+  c.feature_format = kFeatureFormat;
   c.options_yaml = "slam:\n  seed: 3\n";
   c.sessions = {{UuidOf("one"), "0.1", "MH_01", 5, 7}};
   c.maps[MapId{0}] = {UuidOf("map 0"), {{PointId{0}, PointId{99}}, {LineId{1}}}};

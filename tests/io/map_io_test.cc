@@ -175,11 +175,10 @@ TEST(LoadAtlas, GivesBackWhatTheMapsWereMadeWith) {
   EXPECT_EQ(loaded.camera.height, saved.camera.height);
   EXPECT_EQ(loaded.rectified_from_left.coeffs(), saved.rectified_from_left.coeffs());
   EXPECT_EQ(loaded.octave_scale, saved.octave_scale);
-  EXPECT_EQ(loaded.calibration, saved.calibration);
   EXPECT_EQ(loaded.stereo_evidence.information, saved.stereo_evidence.information);
   EXPECT_EQ(loaded.stereo_evidence.weighted, saved.stereo_evidence.weighted);
   EXPECT_EQ(loaded.stereo_evidence.moments, saved.stereo_evidence.moments);
-  EXPECT_EQ(loaded.front_end, saved.front_end);
+  EXPECT_EQ(loaded.feature_format, saved.feature_format);
   EXPECT_EQ(loaded.options_yaml, saved.options_yaml);
   ASSERT_EQ(loaded.sessions.size(), 1U);
   EXPECT_EQ(loaded.sessions[0].uuid, saved.sessions[0].uuid);

@@ -29,7 +29,6 @@ SavedAtlas AtlasOf(const std::vector<std::string>& sessions) {
   }
   map.Apply({edit::AddPoint{PointSeenBy(0, {{KeyFrameId{0}, 1}})}});
   for (const std::string& name : sessions) saved.context.sessions.push_back(SessionNamed(name));
-  saved.context.calibration = 7;
   saved.context.stereo_evidence.weighted.setConstant(2);
   saved.context.maps[map.id()] = {UuidOf("map"), {{PointId{0}}, {}}};
   return saved;
@@ -62,7 +61,7 @@ TEST(Gather, CountsASessionAndItsEvidenceOnce) {
 
 TEST(Gather, LeavesTheEvidenceOfAnotherRig) {
   SavedAtlas second = AtlasOf({"evening"});
-  second.context.calibration = 8;
+  second.context.camera.fx = 500;
   const GatheredAtlases gathered = Gather(AtlasOf({"morning"}), second);
   EXPECT_EQ(gathered.saved.context.stereo_evidence.weighted(0), 2);
 }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -15,6 +16,12 @@ TEST(Uuid, IsMadeOfContents) {
   EXPECT_EQ(UuidOf("a"), UuidOf("a"));
   EXPECT_NE(UuidOf("a"), UuidOf("b"));
   EXPECT_NE(UuidOf(""), Uuid());
+  std::set<std::string> seen;
+  for (int i = 0; i < 1000; ++i) {
+    const std::string name = ToString(UuidOf("text " + std::to_string(i)));
+    EXPECT_TRUE(seen.insert(name.substr(0, 12)).second) << "first half";
+    EXPECT_TRUE(seen.insert(name.substr(24)).second) << "second half";
+  }
 }
 
 TEST(Uuid, HasTheFormOfVersion8) {

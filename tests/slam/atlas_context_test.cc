@@ -32,9 +32,8 @@ TEST(SystemContext, SaysWhatTheMapsWereMadeWith) {
   const AtlasContext context = system->Context();
   EXPECT_EQ(context.camera.fx, system->camera().fx);
   EXPECT_EQ(context.octave_scale, 1.25);
-  EXPECT_NE(context.calibration, 0U);
   EXPECT_THAT(context.options_yaml, HasSubstr("seed: 5"));
-  EXPECT_EQ(context.front_end, FingerprintOf(options.features));
+  EXPECT_EQ(context.feature_format, kFeatureFormat);
   ASSERT_EQ(context.sessions.size(), 1U);
   EXPECT_EQ(context.sessions[0].program, "0.1");
   EXPECT_EQ(context.sessions[0].data, "");

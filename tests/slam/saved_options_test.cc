@@ -50,5 +50,41 @@ TEST(SavedOptionsOrDefault, AreTheDefaultOnesWithARemarkWhereTheyAreNotKnown) {
   EXPECT_NE(remarks[1].find("; lines as by default"), std::string::npos);
 }
 
+AtlasContext MeasuredWith(const std::string& options_yaml) {
+  AtlasContext context;
+  context.feature_format = kFeatureFormat;
+  context.options_yaml = options_yaml;
+  return context;
+}
+
+TEST(FrontEndDifferences, SayWhatIsNotTheSame) {
+  const AtlasContext before = MeasuredWith("features: {line_count: 150}");
+  EXPECT_TRUE(FrontEndDifferences(before, before).empty());
+  const AtlasContext now = MeasuredWith("features: {line_count: 100, orb.scale_factor: 1.5}");
+  EXPECT_EQ(FrontEndDifferences(before, now),
+            (std::vector<std::string>{"features.line_count: 150 in the map, 100 now",
+                                      "features.orb.scale_factor: 1.2 in the map, 1.5 now"}));
+  AtlasContext later = before;
+  ++later.feature_format;
+  EXPECT_EQ(FrontEndDifferences(before, later),
+            std::vector<std::string>{"format of features: 1 in the map, 2 now"});
+}
+
+TEST(FrontEndDifferences, LeaveOutWhatChangesNoFeature) {
+  const AtlasContext now = MeasuredWith("{features: {parallel: false}, slam: {seed: 7}}");
+  EXPECT_TRUE(FrontEndDifferences(MeasuredWith(""), now).empty());
+}
+
+TEST(FrontEndDifferences, KnowNothingOfMapsThatDoNotSay) {
+  EXPECT_TRUE(FrontEndDifferences({}, MeasuredWith("features: {line_count: 100}")).empty());
+}
+
+TEST(FrontEndDifferences, TellOfOptionsThatAreNotKnown) {
+  const AtlasContext later = MeasuredWith("features: {of_a_later_version: 7}");
+  const std::vector<std::string> told = FrontEndDifferences(later, MeasuredWith(""));
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].find("its options:1: unknown option 'features.of_a_later_version'"), 0U);
+}
+
 }  // namespace
 }  // namespace plumbline
