@@ -66,10 +66,8 @@ void CheckApartFromEachOther(
 void CheckKeepsResults(std::string_view option, const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  // A list that is damaged protects results as well; runs of older versions have none.
-  const bool of_run = std::filesystem::exists(folder / RunManifest::kFile, error) ||
-                      ReadRunManifest(folder).has_value();
-  if (!of_run) return;
+  // A list that is damaged protects results as well.
+  if (!std::filesystem::exists(folder / RunManifest::kFile, error)) return;
   CheckNoResult(option, file, folder);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/byte_stream.h"
-#include "plumbline/base/crc32.h"
 #include "plumbline/base/error.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/section_file.h"
@@ -18,14 +17,6 @@ std::string Preamble(std::uint32_t version) {
   for (const char c : std::string_view("PLBMAP\r\n")) preamble(static_cast<std::uint8_t>(c));
   preamble(version);
   return preamble.Take();
-}
-
-// A file of version 1 with this body.
-std::string WithHeader(std::span<const std::uint8_t> body) {
-  ByteWriter header;
-  header(Crc32(body));
-  header(static_cast<std::uint64_t>(body.size()));
-  return Preamble(1) + header.Take() + std::string(AsText(body.data(), body.size()));
 }
 
 // A file of version 2 with these sections: for each its kind (a byte), the size of its contents
@@ -46,8 +37,8 @@ void WriteSections(const std::filesystem::path& path, std::string_view sections)
 }  // namespace
 }  // namespace plumbline
 
-// Map files. After a first 'B' the input is the body of a file of version 1, after an 'S' the
-// sections of one of version 2 (docs/adr/0009-map-file-format.md), which get the checksums that fit
+// Map files. After a first 'S' the input is the sections of a file of version 2
+// (docs/adr/0009-map-file-format.md), which get the checksums that fit
 // and that no mutation would find; otherwise it is the whole file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace plumbline;
@@ -56,8 +47,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text = AsText(data, size);
   if (text.starts_with('S')) {
     WriteSections(path, text.substr(1));
-  } else if (text.starts_with('B')) {
-    path = folder.Write("map.plb", WithHeader({data + 1, size - 1}));
   } else {
     path = folder.Write("map.plb", text);
   }

@@ -22,7 +22,7 @@ COMMENT = re.compile(r"^(\s*)//(?!/) ?(.*)$")
 TRAILING = re.compile(r"^(\s*(?!//)\S.*?)  // (.*)$")
 ESCAPED = str.maketrans({character: "\\" + character for character in "\\@<>&#%$"})
 # Functions that nobody calls by hand; with the line `template <...>` before them.
-VISITORS = re.compile(r"^(?:template <[^\n]*>\n)?(?:constexpr auto (?:EnumNames|FixedOptions)|void VisitFields)\(.*?\n}\n", re.DOTALL | re.MULTILINE)
+VISITORS = re.compile(r"^(?:template <[^\n]*>\n)?(?:constexpr auto EnumNames|void VisitFields)\(.*?\n}\n", re.DOTALL | re.MULTILINE)
 FIELDS = re.compile(r"^void VisitFields\(Visitor&& visit, (\w+)& o\) \{\n(.*?)\n}\n", re.DOTALL | re.MULTILINE)
 FIELD = re.compile(r"visit\(\s*\"\w+\",\s*o\.(\w+),\s*((?:\"(?:\\.|[^\"\\])*\"\s*)+)")
 MEMBER = re.compile(r"^  [\w:<>, ]+ (\w+)(?: = [^;]*)?;$")

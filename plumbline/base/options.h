@@ -53,23 +53,4 @@ concept OptionGroup = requires(T& t, FieldProbe probe) {
   VisitFields(probe, t);
 };
 
-// An option of a group in earlier versions that is a constant of the code now. Its row lets files
-// of these versions be read. Beside the struct stands a function found by ADL:
-//
-//   constexpr auto FixedOptions(std::type_identity<LocalBaOptions>) {
-//     return std::array{FixedOption{"initial_lambda", "1e-04"}};
-//   }
-//
-// Where a constant changes, its row has to change, too.
-struct FixedOption {
-  // Key in its group; dotted where a group inside it is gone as well.
-  std::string_view key;
-  std::string_view value;  // value as a file of options has it
-};
-
-template <class T>
-concept HasFixedOptions = requires {
-  FixedOptions(std::type_identity<T>{});
-};
-
 }  // namespace plumbline

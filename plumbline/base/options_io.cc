@@ -206,13 +206,6 @@ bool OptionTable::IsGroup(std::string_view key) const {
       groups_.begin(), groups_.end(), [key](const Group& group) { return group.key == key; });
 }
 
-bool OptionTable::IsFixedAt(const std::string& key, const std::string& text) const {
-  const auto fixed = fixed_.find(key);
-  if (fixed == fixed_.end()) return false;
-  const std::optional<double> found = ParseNumber<double>(text);
-  return text == fixed->second || (found && found == ParseNumber<double>(fixed->second));
-}
-
 void OptionTable::Set(const std::string& key, const std::string& text, const std::string& where) {
   for (const OptionField& field : fields_) {
     if (field.key != key) continue;
@@ -222,10 +215,6 @@ void OptionTable::Set(const std::string& key, const std::string& text, const std
   }
   if (IsGroup(key)) {
     throw InputError(where + ": " + key + ": expected a group of options, found " + InQuotes(text));
-  }
-  if (const auto fixed = fixed_.find(key); fixed != fixed_.end()) {
-    throw InputError(where + ": " + key + " is no option any more: it is fixed at " +
-                     fixed->second);
   }
   const std::vector<std::string> keys = Keys();
   const std::optional<std::string> nearest = NearestName(key, keys);
@@ -258,7 +247,6 @@ void OptionTable::LoadText(const std::string& text, const std::string& source) {
                        ": expected each option once, found it in line " +
                        std::to_string(first->second) + ", too");
     }
-    if (setting.text && IsFixedAt(setting.key, *setting.text)) continue;
     // A group without options, e.g. all of them commented out, is allowed.
     if (setting.text || !IsGroup(setting.key)) {
       Set(setting.key, setting.text.value_or(""), where);

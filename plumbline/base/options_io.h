@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -47,9 +46,7 @@ struct OptionField {
 // Settings apply in the order of the calls; a later one replaces an earlier one. All members that
 // read settings throw InputError: an unknown key (with the nearest valid one), a value of the wrong
 // type, out of range or not among the choices; the message names file and line, the key, what is
-// allowed and what was found. Settings before the faulty one stay applied. What is no option any
-// more (FixedOption) is passed over in files and texts that have it at its value, so that those of
-// earlier versions are read; another value, and any by Set, is an error that tells the value.
+// allowed and what was found. Settings before the faulty one stay applied.
 class OptionTable {
  public:
   template <OptionGroup T>
@@ -82,8 +79,6 @@ class OptionTable {
   // Returns the dotted keys of all options, in the order of the structs.
   std::vector<std::string> Keys() const;
   const std::vector<OptionField>& fields() const { return fields_; }
-  // Options of earlier versions: the dotted key of each, and the value at which it is fixed.
-  const std::map<std::string, std::string>& fixed() const { return fixed_; }
 
  private:
   struct Group {
@@ -116,11 +111,6 @@ class OptionTable {
 
   template <class T>
   void Collect(const std::string& prefix, T& group) {
-    if constexpr (HasFixedOptions<T>) {
-      for (const FixedOption& fixed : FixedOptions(std::type_identity<T>{})) {
-        fixed_.emplace(prefix + std::string(fixed.key), fixed.value);
-      }
-    }
     VisitFields(Collector{this, prefix}, group);
   }
 
@@ -149,12 +139,9 @@ class OptionTable {
   }
 
   bool IsGroup(std::string_view key) const;
-  // Whether a text gives an option of earlier versions the value at which it is fixed.
-  bool IsFixedAt(const std::string& key, const std::string& text) const;
 
   std::vector<OptionField> fields_;
   std::vector<Group> groups_;
-  std::map<std::string, std::string> fixed_;
 };
 
 }  // namespace plumbline

@@ -47,14 +47,4 @@ void VisitFields(Visitor&& visit, DepthDisparityOptions& o) {
   visit("max_depth_m", o.max_depth_m, "farthest depth used [m]", Range{0.1, 1000});
 }
 
-constexpr auto FixedOptions(std::type_identity<DepthDisparityOptions>) {
-  return std::array{FixedOption{"depth_sigma_a", "0.0012"},
-                    FixedOption{"depth_sigma_b", "0.0019"},
-                    FixedOption{"max_relative_step", "0.05"},
-                    FixedOption{"pixel_sigma_px", "0.5"},
-                    FixedOption{"line_samples", "32"},
-                    FixedOption{"line_side_px", "2"},
-                    FixedOption{"min_line_inliers", "0.6"}};
-}
-
 }  // namespace plumbline

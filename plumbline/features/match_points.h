@@ -87,10 +87,4 @@ void VisitFields(Visitor&& visit, StereoPointOptions& o) {
         Range{0, 0.01});
 }
 
-constexpr auto FixedOptions(std::type_identity<StereoPointOptions>) {
-  return std::array{FixedOption{"ratio", "0.9"},
-                    FixedOption{"max_sad_factor", "4"},
-                    FixedOption{"min_sigma_px", "0.08"}};
-}
-
 }  // namespace plumbline

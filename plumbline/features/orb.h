@@ -85,11 +85,4 @@ void VisitFields(Visitor&& visit, OrbOptions& o) {
       Range{0, 0.01});
 }
 
-constexpr auto FixedOptions(std::type_identity<OrbOptions>) {
-  return std::array{FixedOption{"levels", "8"},
-                    FixedOption{"fast_threshold", "20"},
-                    FixedOption{"cell_px", "35"},
-                    FixedOption{"subpixel", "true"}};
-}
-
 }  // namespace plumbline

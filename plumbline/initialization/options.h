@@ -112,8 +112,4 @@ void VisitFields(Visitor&& visit, InitializationOptions& o) {
   visit("pairwise", o.pairwise, "of rank1_pairwise: controls of what the first paper proposes");
 }
 
-constexpr auto FixedOptions(std::type_identity<InitializationOptions>) {
-  return std::array{FixedOption{"max_interpolation_px", "2"}};
-}
-
 }  // namespace plumbline

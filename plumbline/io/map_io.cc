@@ -4,7 +4,6 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/features/extractor.h"
-#include "plumbline/io/map_file_v1.h"
 #include "plumbline/io/section_file.h"
 #include "plumbline/map/byte_format.h"
 #include "plumbline/map/map_builder.h"
@@ -362,15 +361,13 @@ SavedAtlas LoadAtlas(const std::filesystem::path& path) {
   if (!version) {
     throw InputError(file.source() + ": expected a Plumbline map, found another file");
   }
-  if (*version == 1) {
-    return LoadMapFileV1(
-        path, [&](const AtlasContext& context) { CheckContext(context, file.source()); });
-  }
   if (*version != kVersion) {
-    throw InputError(fmt::format("{}: expected a map of version 1 or {}, found version {}",
-                                 file.source(),
-                                 kVersion,
-                                 *version));
+    throw InputError(
+        fmt::format("{}: expected a map of version {}, found version {}, which {} reads",
+                    file.source(),
+                    kVersion,
+                    *version,
+                    *version < kVersion ? "plumbline 0.2.0" : "a later plumbline"));
   }
   SavedAtlas saved = ReadMapSections(file);
   if (file.remaining() != 0) {

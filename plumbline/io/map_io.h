@@ -31,11 +31,9 @@ void SaveAtlas(const std::filesystem::path& path,
                MapId active = MapId{});
 
 // Reads a file that SaveAtlas wrote; saved again, the atlas gives the same bytes. Throws InputError
-// naming the file when it is missing, not a map, of a later version, cut short, damaged (checksums)
+// naming the file when it is missing, not a map, of another version, cut short, damaged (checksums)
 // or contradicts itself: whatever the bytes, the result serves all functions of Map. Time: half a
 // millisecond a keyframe.
-//
-// A file of version 1 gives an atlas of one map, for which some things are unknown (map_file_v1.h).
 SavedAtlas LoadAtlas(const std::filesystem::path& path);
 
 // A map with the camera with which its features were measured.

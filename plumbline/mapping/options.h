@@ -43,14 +43,6 @@ void VisitFields(Visitor&& visit, LandmarkCreationOptions& o) {
         Range{0, 100});
 }
 
-constexpr auto FixedOptions(std::type_identity<LandmarkCreationOptions>) {
-  return std::array{FixedOption{"worst_relative_depth_sigma", "0.3"},
-                    FixedOption{"min_parallax_deg", "0.3"},
-                    FixedOption{"max_distance", "50"},
-                    FixedOption{"ratio", "0.8"},
-                    FixedOption{"min_plane_angle_deg", "2"}};
-}
-
 struct CleanupOptions {
   // Share of a keyframe's landmarks that three others must show to make it redundant.
   double redundant_share = 0.9;
@@ -68,13 +60,6 @@ void VisitFields(Visitor&& visit, CleanupOptions& o) {
         "the same share where one of these keyframes is of another visit to the place, more than "
         "20 keyframes before or after; 1: never",
         Range{0.1, 1});
-}
-
-constexpr auto FixedOptions(std::type_identity<CleanupOptions>) {
-  return std::array{FixedOption{"min_found_ratio", "0.25"},
-                    FixedOption{"trial_keyframes", "3"},
-                    FixedOption{"min_observations", "2"},
-                    FixedOption{"redundant_views", "3"}};
 }
 
 struct BaWindowOptions {
@@ -127,10 +112,6 @@ void VisitFields(Visitor&& visit, BaWindowOptions& o) {
         "lines that are parallel to many others of the map by chi2 are held so");
 }
 
-constexpr auto FixedOptions(std::type_identity<BaWindowOptions>) {
-  return std::array{FixedOption{"min_shared", "15"}};
-}
-
 struct MappingOptions {
   int fusion_neighbours = 10;
   LandmarkCreationOptions creation;
@@ -166,15 +147,6 @@ void VisitFields(Visitor&& visit, MappingOptions& o) {
       "only; 0: none",
       Range{0, 10000});
   visit("line_map", o.line_map, "which lines of the finished map are given out");
-}
-
-constexpr auto FixedOptions(std::type_identity<MappingOptions>) {
-  return std::array{FixedOption{"fusion.point_radius_px", "3"},
-                    FixedOption{"fusion.point_max_distance", "50"},
-                    FixedOption{"fusion.line_offset_px", "4"},
-                    FixedOption{"fusion.line_angle_deg", "4"},
-                    FixedOption{"fusion.line_max_distance", "60"},
-                    FixedOption{"fusion.max_chi2", "5.99"}};
 }
 
 }  // namespace plumbline

@@ -33,14 +33,6 @@ void VisitFields(Visitor&& visit, PoseOnlyOptions& o) {
         Range{0, 1});
 }
 
-constexpr auto FixedOptions(std::type_identity<PoseOnlyOptions>) {
-  return std::array{FixedOption{"cost_tolerance", "1e-05"},
-                    FixedOption{"huber_point", "2.4477"},
-                    FixedOption{"huber_disparity", "2.7955"},
-                    FixedOption{"huber_line", "2.4477"},
-                    FixedOption{"gate_scale", "1"}};
-}
-
 // The result of SolvePose, in the order of the problem.
 struct PoseOnlyResult {
   Rigid3 cam_from_world;

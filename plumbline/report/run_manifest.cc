@@ -21,16 +21,6 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kKey = "plumbline_run";
 constexpr int kVersion = 1;
 
-// Versions without manifests also wrote the text of options.yaml into summary.json.
-bool IsOfOlderVersion(const fs::path& folder) {
-  const auto options = ReadFileIfThere(folder / "options.yaml");
-  const auto summary = ReadFileIfThere(folder / "summary.json");
-  if (!options || !summary) return false;
-  const Json json = Json::parse(*summary, nullptr, false);
-  return json.is_object() && json.contains("version") && json.contains("line_bytes") &&
-         json.contains("options") && json["options"] == *options;
-}
-
 [[noreturn]] void FailManifest(const fs::path& file) {
   throw InputError(file.string() +
                    ": expected the list of files that a run writes, found something else; choose "
@@ -66,10 +56,7 @@ std::vector<std::string> RunFilesIn(const fs::path& folder) {
 
 std::optional<RunManifest> ReadRunManifest(const fs::path& folder) {
   const fs::path file = folder / RunManifest::kFile;
-  if (!IsTaken(file)) {
-    if (!IsOfOlderVersion(folder)) return std::nullopt;
-    return RunManifest{true, RunFilesIn(folder)};
-  }
+  if (!IsTaken(file)) return std::nullopt;
   const auto text = ReadFileIfThere(file);
   if (!text) FailManifest(file);
   const Json json = Json::parse(*text, nullptr, false);

@@ -28,9 +28,8 @@ bool IsRunFile(const std::string& name);
 // folder cannot be listed.
 std::vector<std::string> RunFilesIn(const std::filesystem::path& folder);
 
-// Returns the manifest of a folder; nullopt where there is none. A folder that a version without
-// manifests wrote counts as having one, with all files of such names, when its summary.json repeats
-// its options.yaml. Names that no run uses are left out, whatever the file says. Throws InputError
+// Returns the manifest of a folder; nullopt where there is none. Names that no run uses are left
+// out, whatever the file says. Throws InputError
 // "<file>: expected ..., found ..." when it is no manifest.
 std::optional<RunManifest> ReadRunManifest(const std::filesystem::path& folder);
 

@@ -79,8 +79,4 @@ void VisitFields(Visitor&& visit, SlamOptions& o) {
   visit("loop", o.loop, "places that are seen again");
 }
 
-constexpr auto FixedOptions(std::type_identity<SlamOptions>) {
-  return std::array{FixedOption{"rectification.virtual_baseline", "0.08"}};
-}
-
 }  // namespace plumbline

@@ -26,14 +26,6 @@ void VisitFields(Visitor&& visit, KeyFramePolicyOptions& o) {
         Range{1, 1000});
 }
 
-constexpr auto FixedOptions(std::type_identity<KeyFramePolicyOptions>) {
-  return std::array{FixedOption{"min_landmark_ratio", "0.7"},
-                    FixedOption{"monocular_landmark_ratio", "0.9"},
-                    FixedOption{"critical_ratio", "0.35"},
-                    FixedOption{"min_close", "100"},
-                    FixedOption{"min_new_close", "70"}};
-}
-
 // Why a frame becomes a keyframe.
 enum class KeyFrameReason {
   kNone,              // it does not

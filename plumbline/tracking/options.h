@@ -78,38 +78,6 @@ void VisitFields(Visitor&& visit, TrackingOptions& o) {
   visit("keyframes", o.keyframes, "when a frame becomes a keyframe");
 }
 
-constexpr auto FixedOptions(std::type_identity<TrackingOptions>) {
-  return std::array{FixedOption{"min_inliers", "4"},
-                    FixedOption{"min_unpredicted_inliers", "10"},
-                    FixedOption{"sure_inliers", "30"},
-                    FixedOption{"min_inlier_ratio", "0.4"},
-                    FixedOption{"guess_pose_sigma", "0.01"},
-                    FixedOption{"motion_sigma", "5"},
-                    FixedOption{"max_relative_depth_sigma", "0.05"},
-                    FixedOption{"max_relative_line_depth_sigma", "0.15"},
-                    FixedOption{"worst_relative_depth_sigma", "0.3"},
-                    FixedOption{"close_relative_depth_sigma", "0.05"},
-                    FixedOption{"first_radius_px", "12"},
-                    FixedOption{"wide_factor", "3"},
-                    FixedOption{"search.point_radius_px", "4"},
-                    FixedOption{"search.point_max_distance", "80"},
-                    FixedOption{"search.point_ratio", "0.85"},
-                    FixedOption{"search.max_view_angle_deg", "60"},
-                    FixedOption{"search.line_offset_px", "10"},
-                    FixedOption{"search.line_angle_deg", "8"},
-                    FixedOption{"search.line_max_distance", "80"},
-                    FixedOption{"search.line_min_length_px", "20"},
-                    FixedOption{"pose.rounds", "4"},
-                    FixedOption{"pose.robust_rounds", "2"},
-                    FixedOption{"pose.max_iterations", "10"},
-                    FixedOption{"pose.decrement_tolerance", "1e-04"},
-                    FixedOption{"pose.cost_tolerance", "1e-05"},
-                    FixedOption{"pose.huber_point", "2.4477"},
-                    FixedOption{"pose.huber_disparity", "2.7955"},
-                    FixedOption{"pose.huber_line", "2.4477"},
-                    FixedOption{"pose.gate_scale", "1"}};
-}
-
 // Whether, and for how long, a lost camera is looked for in its map.
 struct RelocalizationOptions {
   bool enabled = true;
@@ -125,10 +93,6 @@ void VisitFields(Visitor&& visit, RelocalizationOptions& o) {
         o.patience,
         "frames lost in the map of an earlier run after which a new map starts",
         Range{1, 1000000});
-}
-
-constexpr auto FixedOptions(std::type_identity<RelocalizationOptions>) {
-  return std::array{FixedOption{"min_inliers", "30"}};
 }
 
 }  // namespace plumbline

@@ -40,10 +40,6 @@ void VisitFields(Visitor&& visit, InnerOptions& o) {
   visit("iterations", o.iterations, "iterations per solve", Range{1});
 }
 
-constexpr auto FixedOptions(std::type_identity<InnerOptions>) {
-  return std::array{FixedOption{"damping", "0.5"}, FixedOption{"loss.kind", "huber"}};
-}
-
 struct OuterOptions {
   bool lines = true;
   Shape shape = Shape::kRound;
@@ -247,21 +243,6 @@ TEST(OptionTable, SettingsOfOtherReadersAreNamedByTheirPlace) {
   EXPECT_EQ(error_of("lines", "1"), "den.yaml:7: lines: expected true or false, found '1'");
   EXPECT_EQ(error_of("hubber_px", "1"),
             "den.yaml:7: unknown option 'hubber_px'; did you mean 'ba.huber_px'?");
-}
-
-TEST(OptionTable, ReadsWhatWasAnOptionAtItsValueOnly) {
-  EXPECT_EQ(ErrorOfYaml("ba: {damping: 0.50, iterations: 3, loss: {kind: huber}}"), "no error");
-  EXPECT_EQ(ErrorOfYaml("ba:\n  damping: 0.6"),
-            "my.yaml:2: ba.damping is no option any more: it is fixed at 0.5");
-  EXPECT_EQ(ErrorOfYaml("ba.loss.kind:"),
-            "my.yaml:1: ba.loss.kind is no option any more: it is fixed at huber");
-  EXPECT_EQ(ErrorOfSet("ba.damping=0.5"),
-            "--set ba.damping=0.5: ba.damping is no option any more: it is fixed at 0.5");
-  OuterOptions options;
-  const OptionTable table(options);
-  EXPECT_THAT(table.fixed(),
-              ElementsAre(std::pair("ba.damping", "0.5"), std::pair("ba.loss.kind", "huber")));
-  EXPECT_THAT(table.Dump(), Not(HasSubstr("damping")));
 }
 
 TEST(OptionTable, FaultySettingLeavesTheValue) {

@@ -273,6 +273,20 @@ TEST(LoadAtlas, RefusesCutsAndChangedBytesAnywhere) {
   }
 }
 
+TEST(LoadAtlas, ReadsFilesOfVersion020) {
+  const SavedAtlas loaded = LoadAtlas(PLUMBLINE_SEEDS "/map/file_v2");
+  EXPECT_EQ(loaded.file_version, 2U);
+  EXPECT_EQ(loaded.context.feature_format, kFeatureFormat);
+  ASSERT_FALSE(loaded.context.sessions.empty());
+  ASSERT_FALSE(loaded.atlas.empty());
+  for (const auto& [id, map] : loaded.atlas.maps()) map.CheckInvariants();
+  EXPECT_FALSE(loaded.atlas.active().points().empty());
+  // Saved again, it is what is read.
+  const ScratchFolder folder;
+  const auto again = Saved(folder, loaded);
+  EXPECT_EQ(LoadAtlas(again).atlas.active().points().size(), loaded.atlas.active().points().size());
+}
+
 TEST(LoadAtlas, TellsWhatIsWrong) {
   const ScratchFolder folder;
   const std::string whole = Contents(Saved(folder, MakeSavedAtlas()));
@@ -282,7 +296,11 @@ TEST(LoadAtlas, TellsWhatIsWrong) {
   };
   std::string version = whole;
   version[8] = 3;
-  EXPECT_THAT(message(version), HasSubstr("expected a map of version 1 or 2, found version 3"));
+  EXPECT_THAT(message(version),
+              HasSubstr("expected a map of version 2, found version 3, which a later"));
+  version[8] = 1;
+  EXPECT_THAT(message(version),
+              HasSubstr("expected a map of version 2, found version 1, which plumbline 0.2.0"));
   EXPECT_THAT(message(""), HasSubstr("x.plb: expected a Plumbline map, found another file"));
   EXPECT_THAT(message("ply\nformat"), HasSubstr("expected a Plumbline map"));
   EXPECT_THAT(message(whole.substr(0, 10)), HasSubstr("ends early"));

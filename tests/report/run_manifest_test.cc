@@ -51,22 +51,5 @@ TEST(RunManifest, OtherFilesOfThatNameAreRefused) {
   }
 }
 
-TEST(RunManifest, KnowsAFolderOfAVersionWithoutManifests) {
-  const ScratchFolder folder;
-  folder.Write("trajectory.txt", "");
-  folder.Write("notes.txt", "");
-  folder.Write("options.yaml", "slam:\n  seed: 1\n");
-  EXPECT_FALSE(ReadRunManifest(folder.path()));
-  nlohmann::json summary = {
-      {"version", "0.1.0"}, {"line_bytes", nullptr}, {"options", "slam:\n  seed: 2\n"}};
-  folder.Write("summary.json", summary.dump());
-  EXPECT_FALSE(ReadRunManifest(folder.path())) << "options of another run";
-  summary["options"] = "slam:\n  seed: 1\n";
-  folder.Write("summary.json", summary.dump());
-  const auto manifest = ReadRunManifest(folder.path());
-  ASSERT_TRUE(manifest);
-  EXPECT_THAT(manifest->files, ElementsAre("options.yaml", "summary.json", "trajectory.txt"));
-}
-
 }  // namespace
 }  // namespace plumbline

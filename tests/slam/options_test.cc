@@ -103,20 +103,6 @@ TEST(CheckOptions, NamesTheBuildThatHasAKindOfLine) {
   }
 }
 
-// Files of earlier versions, maps and checkpoints among them, have options that are constants now.
-TEST(SlamOptions, ReadFilesOfEarlierVersions) {
-  SlamOptions options;
-  OptionTable table(options);
-  std::string earlier = table.Dump();
-  for (const auto& [key, value] : table.fixed()) earlier += key + ": " + value + "\n";
-  EXPECT_NE(earlier.find("tracking.search.point_ratio: 0.85\n"), std::string::npos);
-  EXPECT_NE(earlier.find("rectification.virtual_baseline: 0.08\n"), std::string::npos);
-  const std::string now = table.Dump();
-  table.LoadText(earlier, "earlier");
-  EXPECT_EQ(table.Dump(), now);
-  EXPECT_THROW(table.LoadText("tracking: {search: {point_ratio: 0.9}}", "other"), InputError);
-}
-
 // A number without an upper bound keeps the program busy, or asks for memory, without end.
 TEST(SlamOptions, EveryNumberHasBounds) {
   SlamOptions options;
