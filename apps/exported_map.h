@@ -69,7 +69,7 @@ struct MapExport {
   std::vector<PosedImage> others = {};     // frames that are no keyframes
   ColmapFiles colmap_files = ColmapFiles::kBoth;
   // What decides about the lines, as in the run that made the map.
-  ImagingModel imaging = {};
+  CameraAndPyramid imaging = {};
   LineMapOptions line_map = {};
 };
 

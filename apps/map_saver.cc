@@ -13,7 +13,7 @@ namespace plumbline {
 namespace {
 
 void CleanMaps(const LineWeights& weights, SavedAtlas& saved) {
-  const ImagingModel imaging{saved.context.camera, saved.context.octave_scale};
+  const CameraAndPyramid imaging{saved.context.camera, saved.context.octave_scale};
   for (const auto& [id, map] : saved.atlas.maps()) {
     saved.atlas.Find(id)->Apply(RemoveOutliers(map, imaging, weights));
   }

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/measurements.h"
 #include "plumbline/map/saved_atlas.h"
+#include "plumbline/matching/measurements.h"
 
 #include <condition_variable>
 #include <filesystem>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/io/map_io.h"
-#include "plumbline/view/viewer.h"
+#include "plumbline/viewer/viewer.h"
 
 #include "apps/chosen_map.h"
 #include "apps/command_line.h"
@@ -61,7 +61,7 @@ int MapViewCommand(std::span<const std::string> arguments) {
   std::cerr << "plumbline: view at " << viewer.url() << " (Ctrl-C ends it)\n";
   CatchStopSignals();
   while (!StopRequested()) {
-    if (viewer.WantsMaps(false)) viewer.LookAtMaps(saved.atlas, {});
+    if (viewer.WantsMaps(false)) viewer.ReadMaps(saved.atlas, {});
     if (const auto failure = viewer.TakeFailure()) throw InputError(*failure);
     std::this_thread::sleep_for(kStep);
   }

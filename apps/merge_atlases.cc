@@ -5,7 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/camera_difference.h"
 #include "plumbline/io/text_rows.h"
-#include "plumbline/map/gathering.h"
+#include "plumbline/map/combined_atlases.h"
 #include "plumbline/slam/options.h"
 #include "plumbline/slam/saved_options.h"
 
@@ -106,18 +106,18 @@ MergedAtlases MergeAtlases(NamedAtlas first,
        FrontEndDifferences(first.saved.context, second.saved.context)) {
     remark(fmt::format("{}: {} (now: {})", first.name, difference, second.name));
   }
-  GatheredAtlases gathered = Gather(std::move(first.saved), second.saved);
+  CombinedAtlases gathered = CombineAtlases(std::move(first.saved), second.saved);
   MergedAtlases merged;
   merged.saved = std::move(gathered.saved);
   if (transform) {
     JoinAsTold(*transform, gathered.second, merged);
   } else {
     const AtlasContext& context = merged.saved.context;
-    auto found = MergeBySight(merged.saved.atlas,
-                              merged.saved.atlas.active_id(),
-                              gathered.second,
-                              {context.camera, context.octave_scale},
-                              OptionsOf(first.name, context, remark));
+    auto found = MergeMaps(merged.saved.atlas,
+                           merged.saved.atlas.active_id(),
+                           gathered.second,
+                           {context.camera, context.octave_scale},
+                           OptionsOf(first.name, context, remark));
     if (!found) {
       throw InputError(fmt::format("{} and {}: expected maps that show the same place, found {}",
                                    first.name,

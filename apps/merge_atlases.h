@@ -30,7 +30,7 @@ struct MergedAtlases {
 using Remark = std::function<void(const std::string&)>;
 
 // Makes one map of the active maps of two atlases of the same camera, in the world of the first:
-// joined as `transform` (first_from_second) says, or where they show the same places (MergeBySight,
+// joined as `transform` (first_from_second) says, or where they show the same places (MergeMaps,
 // with the options that the first was made with). Throws InputError for atlases without maps, for
 // other cameras, for a scale of maps of measured depth, and for maps that cannot be merged for
 // certain.

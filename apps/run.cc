@@ -16,7 +16,7 @@
 #include "plumbline/slam/preset.h"
 #include "plumbline/slam/system.h"
 #include "plumbline/version.h"
-#include "plumbline/view/viewer.h"
+#include "plumbline/viewer/viewer.h"
 
 #include "apps/command_inputs.h"
 #include "apps/command_line.h"
@@ -388,7 +388,7 @@ void KeepShowing(const CommandLine& line, const System& system, Viewer& viewer, 
   if (!line.Has("--stay") || FirstStopSignal()) return;
   if (!quiet) std::cerr << "plumbline: the view stays at " << viewer.url() << " (Ctrl-C ends it)\n";
   while (!StopRequested() && !viewer.TakeFailure()) {
-    if (viewer.WantsMaps(false)) viewer.LookAtMaps(system.atlas(), system.events());
+    if (viewer.WantsMaps(false)) viewer.ReadMaps(system.atlas(), system.events());
     std::this_thread::sleep_for(kLookStep);
   }
 }

@@ -7,7 +7,7 @@
 #include "plumbline/image/box_filter.h"
 #include "plumbline/report/summary.h"
 #include "plumbline/slam/pipeline.h"
-#include "plumbline/view/viewer.h"
+#include "plumbline/viewer/viewer.h"
 
 #include "apps/map_saver.h"
 #include "apps/progress.h"
@@ -98,7 +98,7 @@ class FrameFeed {
   // In the thread that tracks.
   void Observe(const FrameRecord& record, const FrameView& view) {
     const auto position = static_cast<std::size_t>(record.id.value);
-    if (record.shed == Shed::kFrame) {
+    if (record.shed == LoadLevel::kFrame) {
       progress_.Say(fmt::format("frame {} dropped: tracking is behind", position));
     }
     if (!result_.first_pose_seconds && record.status == FrameStatus::kTracked) {
@@ -127,8 +127,8 @@ class FrameFeed {
   // In the thread that tracks, which only asks for a look at the maps.
   void ShowMaps(bool new_keyframe) {
     if (!input_.viewer->WantsMaps(new_keyframe)) return;
-    system_.LookAtMaps([viewer = input_.viewer](const Atlas& atlas, const MapEvents& events) {
-      viewer->LookAtMaps(atlas, events);
+    system_.ReadMaps([viewer = input_.viewer](const Atlas& atlas, const MapEvents& events) {
+      viewer->ReadMaps(atlas, events);
     });
   }
 

@@ -217,7 +217,7 @@ void DrawMaps(const Dataset& dataset, const Setup& setup, StartPlan& plan) {
 }
 
 StartResults Run(const Dataset& dataset, const Setup& setup, const StartPlan& plan) {
-  const auto make_initializer = [&setup](const ImagingModel& imaging) {
+  const auto make_initializer = [&setup](const CameraAndPyramid& imaging) {
     return MakeInitializer(
         imaging, setup.options.initialization, static_cast<std::uint64_t>(setup.seed));
   };

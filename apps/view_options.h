@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/view/web_access.h"
+#include "plumbline/viewer/web_access.h"
 
 #include "apps/command_line.h"
 #include <optional>

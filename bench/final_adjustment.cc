@@ -13,18 +13,18 @@
 
 namespace {
 
-using plumbline::ImagingModel;
+using plumbline::CameraAndPyramid;
 using plumbline::LineOptions;
 using plumbline::MappingOptions;
 
 void Measure(const char* path) {
   const plumbline::SavedMap saved = plumbline::LoadMap(path);
-  ImagingModel imaging;
+  CameraAndPyramid imaging;
   imaging.camera = saved.camera;
   MappingOptions options;
   options.final_adjustment_keyframes = 1'000'000;
   const auto start = std::chrono::steady_clock::now();
-  const plumbline::Correction correction =
+  const plumbline::MapCorrection correction =
       plumbline::AdjustWholeMap(saved.map, imaging, LineOptions{}, options);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   fmt::print("{}: {} keyframes, {} points, {} lines, {} poses moved, {:.2f} s\n",

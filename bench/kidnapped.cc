@@ -114,7 +114,7 @@ class Film {
     return not_lost;
   }
 
-  bool Tracks() const { return system_.frames().back().status == FrameStatus::kTracked; }
+  bool FeatureTracks() const { return system_.frames().back().status == FrameStatus::kTracked; }
   const Rigid3& Now() const { return poses_.back().value(); }
   System& system() { return system_; }
 
@@ -205,7 +205,7 @@ void JumpWhereThePlaceIsKnown(const Source& first,
     int tracked = 0;
     for (std::size_t i = 0; i < kAfterJump; ++i) {
       film.Show(other, *place + i, gain);
-      if (film.Tracks() && tracked++ == 0) found = i + 1;
+      if (film.FeatureTracks() && tracked++ == 0) found = i + 1;
     }
     fmt::print(
         "jump of {:.1f} m, light times {}: {}, {} of {} frames tracked; {} black frames "

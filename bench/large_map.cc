@@ -9,9 +9,9 @@
 // common directions of lines, the search for well seen lines, and the
 // adjustment that ends a run (--steps: not these), which may; the largest memory so far.
 #include "plumbline/io/map_io.h"
-#include "plumbline/loop/essential_graph.h"
-#include "plumbline/loop/options.h"
-#include "plumbline/loop/strong_covisibility.h"
+#include "plumbline/loop_closing/essential_graph.h"
+#include "plumbline/loop_closing/options.h"
+#include "plumbline/loop_closing/strong_covisibility.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/local_mapper.h"

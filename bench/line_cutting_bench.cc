@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/cutting/cut_lines.h"
+#include "plumbline/line_cutting/cut_lines.h"
 
-#include "tests/cutting/random_points.h"
+#include "tests/line_cutting/random_points.h"
 
 #include <benchmark/benchmark.h>
 

@@ -81,7 +81,7 @@ Setup ReadSetup(int count, char** arguments) {
 // A frame of the sequence; without features where its image cannot be read.
 struct Measured {
   std::int64_t stamp_ns = 0;
-  std::shared_ptr<const IndexedFeatures> indexed;
+  std::shared_ptr<const FrameFeatures> indexed;
 };
 
 class LiveKeyFrames {
@@ -121,12 +121,12 @@ class LiveKeyFrames {
     }
   }
 
-  static void Track(const Measured& frame, System& system, Shed shed = Shed::kNothing) {
+  static void Track(const Measured& frame, System& system, LoadLevel shed = LoadLevel::kNothing) {
     if (frame.indexed == nullptr) {
       system.Skip(frame.stamp_ns, "unreadable");
       return;
     }
-    MeasuredFrame measured;
+    ExtractedFrame measured;
     measured.stamp_ns = frame.stamp_ns;
     measured.indexed = frame.indexed;
     measured.shed = shed;
@@ -138,7 +138,7 @@ class LiveKeyFrames {
   void PlayLive(int mapping_ms) {
     const std::int64_t mapping_ns = std::int64_t{1'000'000} * mapping_ms;
     System system(dataset_->calibration(), options_, {.threads = false});
-    LoadShedding shedding;
+    LoadControl shedding;
     std::optional<std::int64_t> done_ns;  // with the keyframe that mapping is at
     for (const Measured& frame : frames_) {
       while (done_ns && *done_ns <= frame.stamp_ns) {

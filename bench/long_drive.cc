@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "long_drive.h"
 
-#include "plumbline/association/line_information.h"
 #include "plumbline/base/random.h"
+#include "plumbline/matching/line_information.h"
 
 #include <algorithm>
 #include <cmath>
@@ -246,8 +246,8 @@ class DriveBuilder {
       std::vector<Eigen::Vector2d> positions;
       for (const PointFeature& point : features_[k].points) positions.push_back(point.px);
       PointGrid grid(positions, camera.width, camera.height);
-      frame.indexed = std::make_shared<const IndexedFeatures>(
-          IndexedFeatures{std::move(features_[k]), std::move(grid)});
+      frame.indexed = std::make_shared<const FrameFeatures>(
+          FrameFeatures{std::move(features_[k]), std::move(grid)});
       drive_.map.Apply({edit::AddKeyFrame{{id, KeyFrameId{id.value - 1}, std::move(frame)}}});
     }
   }

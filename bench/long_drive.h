@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/projection_search.h"
 #include "plumbline/map/map.h"
+#include "plumbline/matching/projection_search.h"
 
 #include "drive_shape.h"
 #include <vector>
@@ -15,7 +15,7 @@ namespace plumbline {
 // that come by later.
 struct LongDrive {
   Map map;  // its keyframes are some centimetres beside their true places, and so are landmarks
-  ImagingModel imaging;
+  CameraAndPyramid imaging;
   std::vector<Rigid3> truth;  // cam_from_world, by keyframe
 };
 

@@ -14,8 +14,8 @@
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/open_dataset.h"
-#include "plumbline/loop/loop_closer.h"
-#include "plumbline/loop/verify_loop.h"
+#include "plumbline/loop_closing/loop_closer.h"
+#include "plumbline/loop_closing/verify_loop.h"
 #include "plumbline/map/covisibility.h"
 
 #include "bench/run_bench.h"
@@ -125,7 +125,7 @@ void Ask(const SavedMap& saved,
          const std::map<KeyFrameId, Rigid3>& truth,
          const Pair& pair,
          Tally& tally) {
-  ImagingModel imaging;
+  CameraAndPyramid imaging;
   imaging.camera = saved.camera;
   const auto start = std::chrono::steady_clock::now();
   const auto edge = VerifyLoop(saved.map, pair.query, saved.map, pair.candidate, imaging, {});
@@ -181,7 +181,7 @@ double Ate(const SavedMap& saved, const std::map<KeyFrameId, Rigid3>& truth) {
 void CloseAll(SavedMap& saved,
               const std::map<KeyFrameId, Rigid3>& truth,
               const std::vector<Pair>& pairs) {
-  ImagingModel imaging;
+  CameraAndPyramid imaging;
   imaging.camera = saved.camera;
   LoopCloser closer(imaging, {});
   fmt::print("closing: ATE {:.4f} m before\n", Ate(saved, truth));
@@ -206,7 +206,7 @@ void CloseAll(SavedMap& saved,
         std::chrono::steady_clock::now() - before_apply;
     saved.map.CheckInvariants();
     const LoopEdge& edge = closer.loops().back();
-    const Placement old_place = before.PlaceOf(query), new_place = saved.map.PlaceOf(query);
+    const KeyFramePose old_place = before.PlaceOf(query), new_place = saved.map.PlaceOf(query);
     fmt::print(
         "  {} with {}: drift chi2 {:.1f}, {} points and {} lines merged, moved {:.3f} m, "
         "scale {:.4f}, {:.0f} + {:.0f} ms; ATE {:.4f} m\n",
@@ -218,7 +218,7 @@ void CloseAll(SavedMap& saved,
         (Inverse(new_place.cam_from_world).translation -
          Inverse(old_place.cam_from_world).translation)
             .norm(),
-        new_place.unit / old_place.unit,
+        new_place.scale / old_place.scale,
         ms.count(),
         apply_ms.count(),
         Ate(saved, truth));

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/association/projection_search.h"
 #include "plumbline/base/error.h"
 #include "plumbline/features/extractor.h"
 #include "plumbline/features/lbd.h"
@@ -9,6 +8,7 @@
 #include "plumbline/image/rectify.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/open_dataset.h"
+#include "plumbline/matching/projection_search.h"
 #include "worlds/sequence.h"
 
 #include "tests/support/data_folder.h"
@@ -126,7 +126,7 @@ void PointsByProjection(benchmark::State& state) {
     predicted.push_back(
         ProjectedPoint{p.px, 0, p.octave, std::pow(octave_scale, p.octave), p.descriptor});
   }
-  IndexedFeatures next;
+  FrameFeatures next;
   next.features.points = scene.next_left.points;
   next.features.point_disparity.resize(next.features.points.size());
   std::vector<Eigen::Vector2d> places;
@@ -146,7 +146,7 @@ void LinesByProjection(benchmark::State& state) {
   for (const LineFeature& line : scene.left.lines) {
     predicted.push_back(ProjectedLine{line.segment, line.descriptor});
   }
-  IndexedFeatures next;
+  FrameFeatures next;
   next.features.lines = scene.next_left.lines;
   next.features.line_right.resize(next.features.lines.size());
   const std::vector<bool> taken(next.features.lines.size(), false);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/ceres_reference/ceres_solve.h"
-#include "plumbline/optimization/pose_only.h"
+#include "plumbline/optimization/pose_optimization.h"
 
 #include "tests/optimization/pose_scene.h"
 

@@ -60,7 +60,7 @@ void InterpolateFrame(benchmark::State& state) {
   InterpolationPoses pair{poses.front(), poses.back()};
   pair.covariance.setIdentity();
   pair.covariance *= 1e-8;
-  const Tracks& tracks = scene.tracks;
+  const FeatureTracks& tracks = scene.tracks;
   for (auto _ : state) {
     const GeometricInterpolation interpolation(pair);
     for (std::size_t k = 0; k < tracks.size(); ++k) {

@@ -161,7 +161,7 @@ class Experiment {
 
   Tally Measure(const SlamOptions& options, const std::vector<std::size_t>& starts) const {
     Tally tally;
-    std::map<std::size_t, MeasuredFrame> measured;
+    std::map<std::size_t, ExtractedFrame> measured;
     const System front_end(sequence_.calibration(), options);
     for (const std::size_t start : starts) {
       for (std::size_t i = start; i < start + kFrames; ++i) {
@@ -177,7 +177,7 @@ class Experiment {
  private:
   void Begin(const SlamOptions& options,
              std::size_t start,
-             const std::map<std::size_t, MeasuredFrame>& measured,
+             const std::map<std::size_t, ExtractedFrame>& measured,
              Tally& tally) const {
     System system(sequence_.calibration(), options);
     system.Continue(saved_, true);

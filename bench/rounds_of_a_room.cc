@@ -243,7 +243,7 @@ class Rounds {
     if (!here) return std::nullopt;
     const Rigid3 rectified_from_delivered{system_->rectifier().rectified_left_from_left(),
                                           Eigen::Vector3d::Zero()};
-    return Inverse(PoseBeside(map.PlaceOf(record.reference), record.from_reference)) *
+    return Inverse(ComposePose(map.PlaceOf(record.reference), record.from_reference)) *
            rectified_from_delivered;
   }
 

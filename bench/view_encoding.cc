@@ -10,8 +10,8 @@
 // the changes in and of encoding them (in the viewer's), and the bytes of an update. What the
 // numbers were: docs/benchmarks.md.
 #include "plumbline/base/random.h"
-#include "plumbline/view/map_comparison.h"
-#include "plumbline/view/viewed_map.h"
+#include "plumbline/viewer/map_comparison.h"
+#include "plumbline/viewer/viewed_map.h"
 
 #include <cstdio>
 #include <ctime>

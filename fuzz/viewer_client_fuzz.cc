@@ -3,8 +3,8 @@
 #include "plumbline/base/error.h"
 #include "plumbline/foxglove/protocol.h"
 #include "plumbline/map/atlas.h"
-#include "plumbline/view/map_question.h"
-#include "plumbline/view/web_access.h"
+#include "plumbline/viewer/landmark_query.h"
+#include "plumbline/viewer/web_access.h"
 
 #include "fuzz/input_folder.h"
 #include <array>

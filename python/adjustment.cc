@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
-#include "plumbline/optimization/local_ba.h"
-#include "plumbline/optimization/pose_only.h"
+#include "plumbline/optimization/bundle_adjustment.h"
+#include "plumbline/optimization/pose_optimization.h"
 
 #include "arrays.h"
 #include "bindings.h"

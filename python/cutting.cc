@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
-#include "plumbline/cutting/cut_lines.h"
-#include "plumbline/cutting/pose_information.h"
+#include "plumbline/line_cutting/cut_lines.h"
+#include "plumbline/line_cutting/pose_information.h"
 
 #include "apps/command_line.h"
 #include "arrays.h"

@@ -223,7 +223,7 @@ void LiveSlam::Implementation::ViewMap(std::function<void(MapView)> take) {
   session_->pipeline().Drain();
   System& system = session_->system();
   // The map is shown in the world of the poses that are reported meanwhile.
-  system.LookAtMaps(
+  system.ReadMaps(
       [take = std::move(take), rectified_from_left = system.rectifier().rectified_left_from_left()](
           const Atlas& atlas, const MapEvents&) {
         const Map* map = atlas.Find(atlas.active_id());

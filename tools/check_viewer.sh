@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Looks at a run as others do: with Foxglove's own client and MCAP's own reader (packages of npm, by the
-# lock file in tests/view/foxglove_client), and in headless Chromium. Exit status 0 when all is as it
+# lock file in tests/viewer/foxglove_client), and in headless Chromium. Exit status 0 when all is as it
 # should be or the tools are not there; then a line says so.
 #
 #   tools/check_viewer.sh PROGRAM SEQUENCE FOLDER
@@ -16,7 +16,7 @@ status=0
 
 ClientOfFoxglove() {
   mkdir -p "$folder/client"
-  cp tests/view/foxglove_client/{package.json,package-lock.json,check.mjs} "$folder/client"
+  cp tests/viewer/foxglove_client/{package.json,package-lock.json,check.mjs} "$folder/client"
   (cd "$folder/client" && npm ci --ignore-scripts --no-audit --no-fund --silent)
   "$program" run "$sequence" --to 40 --quiet --record "$folder/run.mcap" --out "$folder/recorded"
   local port=18765
@@ -36,7 +36,7 @@ else
   echo "check_viewer.sh: npm is not installed; Foxglove's client is left out" >&2
 fi
 page=0
-/usr/bin/python3 tests/view/page_test.py "$program" "$sequence" "$folder" || page=$?
+/usr/bin/python3 tests/viewer/page_test.py "$program" "$sequence" "$folder" || page=$?
 if [[ $page == 77 ]]; then
   echo "check_viewer.sh: no Chromium with its driver and selenium; the page is left out" >&2
 elif [[ $page != 0 ]]; then

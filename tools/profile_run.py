@@ -42,7 +42,7 @@ STAGES = [
     (1, FRAME, "landmarks of the last frame", r"plumbline::PoseSearch::LastLandmarks"),
     (1, FRAME, "search of landmarks", r"plumbline::MatchCandidates"),
     (1, FRAME, "pose", r"plumbline::PoseEstimator::Estimate"),
-    (0, FRAME, "start of a monocular map", r"plumbline::MonocularStart::Offer"),
+    (0, FRAME, "start of a monocular map", r"plumbline::MonocularInitialization::Offer"),
     (0, KEYFRAME, "mapping", r"plumbline::LocalMapper::Add"),
     (1, KEYFRAME, "taking in", r"plumbline::LocalMapper::TakeIn"),
     (1, KEYFRAME, "new landmarks", r"plumbline::LocalMapper::CreateLandmarks"),

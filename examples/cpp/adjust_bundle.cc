@@ -4,7 +4,7 @@
 // Bundle adjustment: two cameras, points and a line, from wrong starts to right places.
 #include <iostream>
 
-#include <plumbline/optimization/local_ba.h>
+#include <plumbline/optimization/bundle_adjustment.h>
 
 int main() {
   using namespace plumbline;

@@ -4,7 +4,7 @@
 // Cuts 3D lines to the piece that tells most about the pose of the camera.
 #include <iostream>
 
-#include <plumbline/cutting/cut_lines.h>
+#include <plumbline/line_cutting/cut_lines.h>
 
 int main() {
   using namespace plumbline;

@@ -3,8 +3,8 @@
 #include "lab/cutting_testbed/choice_trials.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/cutting/choose_features.h"
-#include "plumbline/cutting/pose_information.h"
+#include "plumbline/line_cutting/choose_features.h"
+#include "plumbline/line_cutting/pose_information.h"
 #include "plumbline/optimization/residuals.h"
 
 #include <algorithm>

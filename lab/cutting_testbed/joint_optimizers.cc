@@ -3,8 +3,8 @@
 #include "lab/cutting_testbed/joint_optimizers.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/cutting/cut_lines.h"
-#include "plumbline/cutting/pose_information.h"
+#include "plumbline/line_cutting/cut_lines.h"
+#include "plumbline/line_cutting/pose_information.h"
 
 namespace plumbline {
 

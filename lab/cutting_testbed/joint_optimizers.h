@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/cutting/cutting_problem.h"
+#include "plumbline/line_cutting/cutting_problem.h"
 
 #include <array>
 #include <type_traits>

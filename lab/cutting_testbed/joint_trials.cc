@@ -3,7 +3,7 @@
 #include "lab/cutting_testbed/joint_trials.h"
 
 #include "plumbline/base/random.h"
-#include "plumbline/cutting/ratio_ascent.h"
+#include "plumbline/line_cutting/ratio_ascent.h"
 
 #include <algorithm>
 #include <chrono>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/cutting_testbed/pose_from_lines.h"
 
-#include "plumbline/cutting/cut_residuals.h"
 #include "plumbline/geometry/symmetric_system.h"
+#include "plumbline/line_cutting/cut_residuals.h"
 
 #include <limits>
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/cutting/cutting_problem.h"
 #include "plumbline/geometry/se3.h"
+#include "plumbline/line_cutting/cutting_problem.h"
 
 #include <span>
 

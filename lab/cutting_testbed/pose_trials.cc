@@ -4,7 +4,7 @@
 
 #include "lab/cutting_testbed/pose_from_lines.h"
 #include "plumbline/base/error.h"
-#include "plumbline/cutting/cut_lines.h"
+#include "plumbline/line_cutting/cut_lines.h"
 
 #include <algorithm>
 #include <numbers>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/base/random.h"
-#include "plumbline/cutting/cutting_problem.h"
+#include "plumbline/line_cutting/cutting_problem.h"
 
 #include <array>
 #include <cstdint>

@@ -4,10 +4,10 @@
 
 #include "lab/cutting_testbed/grid_search.h"
 #include "plumbline/base/error.h"
-#include "plumbline/cutting/line_cut_objective.h"
-#include "plumbline/cutting/pose_information.h"
-#include "plumbline/cutting/ratio_ascent.h"
-#include "plumbline/cutting/single_line.h"
+#include "plumbline/line_cutting/line_cut_objective.h"
+#include "plumbline/line_cutting/pose_information.h"
+#include "plumbline/line_cutting/ratio_ascent.h"
+#include "plumbline/line_cutting/single_line.h"
 
 #include <algorithm>
 

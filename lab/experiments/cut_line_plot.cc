@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/line_map_plots.h"
 #include "lab/experiments/paper_plots.h"
-#include "plumbline/association/projection_search.h"
 #include "plumbline/base/base64.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
@@ -10,6 +9,7 @@
 #include "plumbline/io/keyframe_images.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/png.h"
+#include "plumbline/matching/projection_search.h"
 #include "plumbline/slam/options.h"
 #include "plumbline/tracking/line_cutting.h"
 

@@ -5,7 +5,7 @@
 #include "lab/cutting_testbed/joint_optimizers.h"
 #include "lab/cutting_testbed/scene.h"
 #include "plumbline/base/options.h"
-#include "plumbline/cutting/cut_lines.h"
+#include "plumbline/line_cutting/cut_lines.h"
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/line_method.h"
 #include "plumbline/base/stop_check.h"
-#include "plumbline/optimization/local_ba.h"
+#include "plumbline/matching/line_method.h"
+#include "plumbline/optimization/bundle_adjustment.h"
 #include "plumbline/optimization/problem.h"
 
 namespace plumbline {

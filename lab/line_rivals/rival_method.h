@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/line_options.h"
+#include "plumbline/matching/line_options.h"
 
 namespace plumbline {
 

@@ -104,7 +104,7 @@ std::shared_ptr<const TrueDepth> SequenceTruth::DepthFromImage(DepthImage depth)
 }
 
 std::shared_ptr<const TrueDepth> SequenceTruth::DepthFromStereo(SensorFrame frame) const {
-  const MeasuredFrame measured = stereo_->Measure(std::move(frame));
+  const ExtractedFrame measured = stereo_->Measure(std::move(frame));
   const Rectifier& pair = stereo_->rectifier();
   return std::make_shared<TrueDepthOfPoints>(
       TrueDepthOfStereo(measured.indexed->features,

@@ -30,7 +30,7 @@ class MeasuredFrames {
   std::optional<InitializationFrame> Measure(int index) const {
     auto read = dataset_.Read(static_cast<std::size_t>(index));
     if (!read) return std::nullopt;
-    MeasuredFrame measured = front_end_.Measure(*read);
+    ExtractedFrame measured = front_end_.Measure(*read);
     return InitializationFrame{FrameId{index},
                                measured.stamp_ns,
                                std::move(measured.indexed),
@@ -73,7 +73,7 @@ StartResults RunStarts(const Dataset& mono,
                        const std::function<bool(std::size_t done)>& progress) {
   const FrontEnd front_end(mono.calibration(), options.features);
   const SequenceTruth truth(mono, front_end.rectifier(), camera, plan.poses);
-  const ImagingModel imaging{front_end.rectifier().camera(), options.features.orb.scale_factor};
+  const CameraAndPyramid imaging{front_end.rectifier().camera(), options.features.orb.scale_factor};
   MeasuredFrames measured(mono, front_end);
   const StartFrames frames = [&measured](int index) { return measured.Get(index); };
   const StartTask task{frames, truth, imaging.camera, plan.limits, plan.on_map};

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "lab/starts/start_trial.h"
-#include "plumbline/association/projection_search.h"
 #include "plumbline/base/options.h"
 #include "plumbline/features/extractor.h"
 #include "plumbline/initialization/initializer.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/matching/projection_search.h"
 
 #include <cstdint>
 #include <functional>
@@ -46,7 +46,7 @@ std::vector<int> EveryStart(std::size_t frames, int from, int every);
 StartRange RangeOf(const Dataset& dataset, int first, double seconds, double patience);
 
 // Makes an initializer without frames.
-using InitializerFactory = std::function<std::unique_ptr<Initializer>(const ImagingModel&)>;
+using InitializerFactory = std::function<std::unique_ptr<Initializer>(const CameraAndPyramid&)>;
 
 struct StartResults {
   std::vector<StartRecord> records;  // one for each start

@@ -34,7 +34,7 @@ double LineNoiseOf(const std::vector<LineFit>& fits) {
 // least, until the direction of the newest translation is off by kProbe. All other poses follow as
 // the covariance says. These models are the ends of a valley of the cost, where another minimum may
 // be.
-std::vector<Reconstruction> Probes(const Tracks& tracks, const Reconstruction& best) {
+std::vector<Reconstruction> Probes(const FeatureTracks& tracks, const Reconstruction& best) {
   const auto covariance = ComputeCovariance(tracks, best, 1, kChi2TwoDof99);
   if (!covariance) return {};
   const Rigid3& newest = best.cam_from_reference.back();
@@ -60,13 +60,13 @@ std::vector<Reconstruction> Probes(const Tracks& tracks, const Reconstruction& b
   return probes;
 }
 
-void TriangulateAndAdjust(const Tracks& tracks, CandidateModel& model) {
+void TriangulateAndAdjust(const FeatureTracks& tracks, CandidateModel& model) {
   TriangulateLines(tracks, model.reconstruction);
   AdjustModel(tracks, model);
 }
 
 // Adds to the cost of models that of the lines that are inliers of at least one model.
-void CountLines(const Tracks& tracks, std::vector<CandidateModel>& models) {
+void CountLines(const FeatureTracks& tracks, std::vector<CandidateModel>& models) {
   std::vector<std::vector<LineFit>> fits;
   std::vector<bool> counts(tracks.lines.size(), false);
   for (const CandidateModel& model : models) {
@@ -117,14 +117,14 @@ void SortByCost(std::vector<CandidateModel>& models) {
       models.begin(), models.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
 }
 
-void AdjustModel(const Tracks& tracks, CandidateModel& model) {
+void AdjustModel(const FeatureTracks& tracks, CandidateModel& model) {
   constexpr int kIterations = 6;
   model.reconstruction = BundleAdjust(tracks, std::move(model.reconstruction), kIterations);
   model.fit = EvaluatePoints(tracks, model.reconstruction, kChi2TwoDof99);
   model.cost = model.fit.cost;
 }
 
-std::vector<CandidateModel> AdjustWithLines(Tracks& tracks,
+std::vector<CandidateModel> AdjustWithLines(FeatureTracks& tracks,
                                             std::vector<CandidateModel> models,
                                             double min_noise) {
   Reconstruction& best = models.front().reconstruction;

@@ -32,7 +32,7 @@ void SortByCost(std::vector<CandidateModel>& models);
 
 // Adjusts all poses, points and lines that have a place; sets fit and cost to those of the points
 // after it.
-void AdjustModel(const Tracks& tracks, CandidateModel& model);
+void AdjustModel(const FeatureTracks& tracks, CandidateModel& model);
 
 // Adjusts models that were found by points to points and lines together.
 //
@@ -50,7 +50,7 @@ void AdjustModel(const Tracks& tracks, CandidateModel& model);
 //   models   the best first; not empty
 //   returns  distinct models, the best first
 //   cost     some milliseconds for 50 points and 30 lines in four views
-std::vector<CandidateModel> AdjustWithLines(Tracks& tracks,
+std::vector<CandidateModel> AdjustWithLines(FeatureTracks& tracks,
                                             std::vector<CandidateModel> models,
                                             double min_noise);
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/initial_map.h"
 
-#include "plumbline/association/measurements.h"
 #include "plumbline/base/chi2.h"
 #include "plumbline/base/index.h"
 #include "plumbline/base/median.h"
@@ -10,7 +9,8 @@
 #include "plumbline/geometry/line_triangulation.h"
 #include "plumbline/geometry/triangulation.h"
 #include "plumbline/geometry/trimming.h"
-#include "plumbline/optimization/local_ba.h"
+#include "plumbline/matching/measurements.h"
+#include "plumbline/optimization/bundle_adjustment.h"
 
 #include <algorithm>
 #include <array>

@@ -22,7 +22,7 @@ namespace plumbline {
 struct InitializationFrame {
   FrameId id;
   std::int64_t stamp_ns = 0;
-  std::shared_ptr<const IndexedFeatures> indexed;
+  std::shared_ptr<const FrameFeatures> indexed;
   std::shared_ptr<const GrayImage> image;
 };
 

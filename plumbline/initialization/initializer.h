@@ -13,7 +13,7 @@
 namespace plumbline {
 
 // Why there is no initial map yet.
-enum class InitializationWait {
+enum class InitializationStatus {
   kNone,
   kTooFewFeatures,     // this image has too few features
   kTooFewFrames,       // the window is not full
@@ -22,14 +22,14 @@ enum class InitializationWait {
   kAmbiguous,          // two interpretations explain the frames equally well
   kInaccurate,         // the structure is not known well enough, or does not fit
 };
-constexpr auto EnumNames(std::type_identity<InitializationWait>) {
-  return std::array{std::pair{InitializationWait::kNone, ""},
-                    std::pair{InitializationWait::kTooFewFeatures, "too_few_features"},
-                    std::pair{InitializationWait::kTooFewFrames, "too_few_frames"},
-                    std::pair{InitializationWait::kTooFewMatches, "too_few_matches"},
-                    std::pair{InitializationWait::kTooLittleParallax, "too_little_parallax"},
-                    std::pair{InitializationWait::kAmbiguous, "ambiguous"},
-                    std::pair{InitializationWait::kInaccurate, "inaccurate"}};
+constexpr auto EnumNames(std::type_identity<InitializationStatus>) {
+  return std::array{std::pair{InitializationStatus::kNone, ""},
+                    std::pair{InitializationStatus::kTooFewFeatures, "too_few_features"},
+                    std::pair{InitializationStatus::kTooFewFrames, "too_few_frames"},
+                    std::pair{InitializationStatus::kTooFewMatches, "too_few_matches"},
+                    std::pair{InitializationStatus::kTooLittleParallax, "too_little_parallax"},
+                    std::pair{InitializationStatus::kAmbiguous, "ambiguous"},
+                    std::pair{InitializationStatus::kInaccurate, "inaccurate"}};
 }
 
 // How often each step of starts was done, whichever map came of it.
@@ -43,8 +43,8 @@ struct InitializationCounts {
 };
 
 struct InitializationResult {
-  InitializationWait wait = InitializationWait::kNone;  // kNone when there is a map
-  int matches = 0;                                      // points matched with the reference frame
+  InitializationStatus wait = InitializationStatus::kNone;  // kNone when there is a map
+  int matches = 0;  // points matched with the reference frame
   // Median angle between the rays of matches, without the camera's rotation; 0 where unknown.
   double parallax_deg = 0;
   std::optional<InitialMap> map = std::nullopt;

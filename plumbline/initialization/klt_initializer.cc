@@ -33,9 +33,9 @@ struct Poses {
 };
 
 // Returns the best relative pose of each frame by itself; nullopt where a frame has none.
-std::optional<Poses> RelativePoses(const Tracks& tracks, Rng& rng) {
+std::optional<Poses> RelativePoses(const FeatureTracks& tracks, Rng& rng) {
   Poses poses;
-  for (const TrackedPoints& view : tracks.views) {
+  for (const ViewPoints& view : tracks.views) {
     const std::vector<RayMatch> matches = MatchesBetween(tracks.reference, view);
     const auto hypotheses = EstimateRelativePoses(matches, {}, rng);
     if (hypotheses.empty()) return std::nullopt;
@@ -46,7 +46,7 @@ std::optional<Poses> RelativePoses(const Tracks& tracks, Rng& rng) {
   return poses;
 }
 
-std::optional<Rank1Solution> Factorize(const Tracks& tracks, const Poses& poses) {
+std::optional<Rank1Solution> Factorize(const FeatureTracks& tracks, const Poses& poses) {
   std::vector<Rank1View> views;
   for (std::size_t i = 0; i < tracks.views.size(); ++i) {
     views.push_back(Rank1ViewOf(tracks.views[i], poses.cam_from_reference[i]));
@@ -77,7 +77,7 @@ void KltInitializer::Start(const InitializationFrame& frame) {
 }
 
 InitializationResult KltInitializer::Add(const InitializationFrame& frame) {
-  using enum InitializationWait;
+  using enum InitializationStatus;
   PLUMBLINE_CHECK(frame.image != nullptr, "optical flow needs the image");
   const bool enough = static_cast<int>(frame.indexed->features.points.size()) >= kMinFeatures;
   if (!reference_) {
@@ -107,11 +107,11 @@ std::vector<int> KltInitializer::SelectFrames() const {
   return frames;
 }
 
-Tracks KltInitializer::CollectTracks(const std::vector<int>& frames) const {
-  Tracks tracks;
+FeatureTracks KltInitializer::CollectTracks(const std::vector<int>& frames) const {
+  FeatureTracks tracks;
   tracks.views.resize(frames.size());
   const double sigma = kTrackSigmaPx / camera_.fx;
-  const auto add = [&](const Eigen::Vector2d& px, TrackedPoints& points) {
+  const auto add = [&](const Eigen::Vector2d& px, ViewPoints& points) {
     points.points.emplace_back(camera_.Unproject(px).hnormalized());
     points.sigmas.push_back(sigma);
   };
@@ -128,9 +128,9 @@ Tracks KltInitializer::CollectTracks(const std::vector<int>& frames) const {
 }
 
 InitializationResult KltInitializer::Attempt() {
-  using enum InitializationWait;
+  using enum InitializationStatus;
   const std::vector<int> frames = SelectFrames();
-  const Tracks tracks = CollectTracks(frames);
+  const FeatureTracks tracks = CollectTracks(frames);
   Rng rng(seed_, "initialization", static_cast<std::uint64_t>(frames_.back().frame.id.value));
   const auto poses = RelativePoses(tracks, rng);
   if (!poses) return {.wait = kInaccurate};

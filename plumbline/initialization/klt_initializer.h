@@ -40,7 +40,7 @@ class KltInitializer : public Initializer {
   // Returns frames spread evenly since the reference, the newest last.
   std::vector<int> SelectFrames() const;
   // Returns the points that are alive in the newest frame, in the chosen frames.
-  Tracks CollectTracks(const std::vector<int>& frames) const;
+  FeatureTracks CollectTracks(const std::vector<int>& frames) const;
   InitializationResult Attempt();
   std::optional<InitialMap> BuildMap(const std::vector<int>& frames,
                                      const std::vector<Rigid3>& poses) const;

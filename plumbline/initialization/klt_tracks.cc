@@ -108,7 +108,7 @@ void KltTracks::Follow(std::shared_ptr<const GrayImage> image, HelperThread* hel
   image_ = std::move(image);
 }
 
-std::vector<int> NearestFeatures(const IndexedFeatures& features,
+std::vector<int> NearestFeatures(const FrameFeatures& features,
                                  const TrackedPixels& places,
                                  double radius_px) {
   struct Pair {

@@ -49,7 +49,7 @@ inline constexpr double kAttachRadiusPx = 1.5;
 
 // Returns the feature nearest to each place, no further than `radius_px`; -1 where there is none.
 // Each feature is used at most once, for the place nearest to it.
-std::vector<int> NearestFeatures(const IndexedFeatures& features,
+std::vector<int> NearestFeatures(const FrameFeatures& features,
                                  const TrackedPixels& places,
                                  double radius_px);
 

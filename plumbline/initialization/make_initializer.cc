@@ -10,7 +10,7 @@
 
 namespace plumbline {
 
-std::unique_ptr<Initializer> MakeInitializer(const ImagingModel& imaging,
+std::unique_ptr<Initializer> MakeInitializer(const CameraAndPyramid& imaging,
                                              const InitializationOptions& options,
                                              std::uint64_t seed,
                                              HelperThread* helper) {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/projection_search.h"
 #include "plumbline/base/helper_thread.h"
 #include "plumbline/initialization/initializer.h"
 #include "plumbline/initialization/options.h"
+#include "plumbline/matching/projection_search.h"
 
 #include <cstdint>
 #include <memory>
@@ -15,7 +15,7 @@ namespace plumbline {
 // Returns an initializer of the method that the options name. `seed` seeds all its random numbers.
 // The helper, where there is one, shares its work on images, with the same result, and has to
 // outlive it.
-std::unique_ptr<Initializer> MakeInitializer(const ImagingModel& imaging,
+std::unique_ptr<Initializer> MakeInitializer(const CameraAndPyramid& imaging,
                                              const InitializationOptions& options,
                                              std::uint64_t seed,
                                              HelperThread* helper = nullptr);

@@ -61,7 +61,7 @@ double NoiseOf(const std::vector<RayMatch>& matches, const Rigid3& b_from_a) {
 }
 
 // Returns the models of all hypotheses that can be carried through all frames.
-std::vector<CandidateModel> FactorizeAll(const Tracks& tracks,
+std::vector<CandidateModel> FactorizeAll(const FeatureTracks& tracks,
                                          const std::vector<MotionHypothesis>& hypotheses,
                                          const FactorizationOptions& options) {
   auto factorized = ParallelMap<std::optional<CandidateModel>>(
@@ -86,7 +86,7 @@ void DropHopeless(std::vector<CandidateModel>& models) {
 
 // Adjusts all models that are worth it, and puts the best first. Of models that become the same
 // only the best stays.
-void AdjustAll(const Tracks& tracks, std::vector<CandidateModel>& models) {
+void AdjustAll(const FeatureTracks& tracks, std::vector<CandidateModel>& models) {
   SortByCost(models);
   DropHopeless(models);
   ParallelFor(static_cast<int>(models.size()), kThreads, [&](int i) {
@@ -100,7 +100,7 @@ void AdjustAll(const Tracks& tracks, std::vector<CandidateModel>& models) {
 
 // Returns the angle between the rays to the newest and to the reference frame, for the median
 // point.
-double ParallaxDeg(const Tracks& tracks, const Reconstruction& reconstruction) {
+double ParallaxDeg(const FeatureTracks& tracks, const Reconstruction& reconstruction) {
   const Eigen::Vector3d centre = Inverse(reconstruction.cam_from_reference.back()).translation;
   std::vector<double> angles;
   for (std::size_t k = 0; k < tracks.size(); ++k) {
@@ -125,53 +125,54 @@ double MedianDepthSigma(const ReconstructionCovariance& covariance) {
 }
 
 // Whether the accuracy that the covariance promises for a model is good enough.
-InitializationWait TestAccuracy(const Tracks& tracks, const CandidateModel& model) {
+InitializationStatus TestAccuracy(const FeatureTracks& tracks, const CandidateModel& model) {
   const double noise = std::max(kLeastNoise, model.fit.noise);
   const auto covariance = ComputeCovariance(tracks,
                                             model.reconstruction,
                                             noise,
                                             kChi2TwoDof99 / (noise * noise),
                                             std::max(kLeastNoise, model.line_noise));
-  if (!covariance) return InitializationWait::kTooLittleParallax;
+  if (!covariance) return InitializationStatus::kTooLittleParallax;
   const double depth = MedianDepthSigma(*covariance);
-  if (!(depth < kUnknownDepth)) return InitializationWait::kTooLittleParallax;
+  if (!(depth < kUnknownDepth)) return InitializationStatus::kTooLittleParallax;
   const int newest = static_cast<int>(tracks.views.size()) - 1;
   const PoseAccuracy pose = AccuracyOf(model.reconstruction, *covariance, newest);
   const bool accurate =
       depth <= kMaxDepth && pose.rotation <= kMaxRotation && pose.direction <= kMaxDirection;
-  return accurate ? InitializationWait::kNone : InitializationWait::kInaccurate;
+  return accurate ? InitializationStatus::kNone : InitializationStatus::kInaccurate;
 }
 
 // Decides about the models: the best must be good, and no other may come near. Every model that is
 // not out of the question must be accurate, too, since the wrong interpretation of a plane often
 // shows more parallax and so seems to be known before the right one is.
-InitializationWait Decide(const Tracks& tracks, const std::vector<CandidateModel>& models) {
+InitializationStatus Decide(const FeatureTracks& tracks,
+                            const std::vector<CandidateModel>& models) {
   const CandidateModel& best = models.front();
   // The tracks have few points and few lines.
   if (static_cast<int>(tracks.views.back().CountSeen()) + best.lines < kMinMatches) {
-    return InitializationWait::kTooFewMatches;
+    return InitializationStatus::kTooFewMatches;
   }
   if (best.fit.inliers < kMinInlierShare * best.fit.measurements) {
-    return InitializationWait::kInaccurate;
+    return InitializationStatus::kInaccurate;
   }
   if (ParallaxDeg(tracks, best.reconstruction) < kMinParallaxDeg) {
-    return InitializationWait::kTooLittleParallax;
+    return InitializationStatus::kTooLittleParallax;
   }
   for (const CandidateModel& model : models) {
     if (model.cost > kHopeless * best.cost) break;
-    const InitializationWait accuracy = TestAccuracy(tracks, model);
-    if (accuracy != InitializationWait::kNone) return accuracy;
+    const InitializationStatus accuracy = TestAccuracy(tracks, model);
+    if (accuracy != InitializationStatus::kNone) return accuracy;
   }
   if (models.size() > 1 && models[1].cost < best.cost * (1 + kMinMargin)) {
-    return InitializationWait::kAmbiguous;
+    return InitializationStatus::kAmbiguous;
   }
-  return InitializationWait::kNone;
+  return InitializationStatus::kNone;
 }
 
 // Whether lines are to take part: points alone do not suffice, and there are few of them. What many
 // points leave open is not for lines to decide.
-bool NeedsLines(const Tracks& tracks, InitializationWait wait) {
-  return wait != InitializationWait::kNone && wait != InitializationWait::kTooLittleParallax &&
+bool NeedsLines(const FeatureTracks& tracks, InitializationStatus wait) {
+  return wait != InitializationStatus::kNone && wait != InitializationStatus::kTooLittleParallax &&
          tracks.lines.size() > 0 && tracks.size() < kManyPoints;
 }
 
@@ -182,7 +183,7 @@ void PriorHypotheses::Clear() {
   sure_ = false;
 }
 
-void PriorHypotheses::Keep(const Tracks& tracks,
+void PriorHypotheses::Keep(const FeatureTracks& tracks,
                            std::span<const CandidateModel> models,
                            bool sure) {
   Clear();
@@ -197,7 +198,7 @@ void PriorHypotheses::Keep(const Tracks& tracks,
   }
 }
 
-std::vector<MotionHypothesis> PriorHypotheses::HypothesesFor(const Tracks& tracks) const {
+std::vector<MotionHypothesis> PriorHypotheses::HypothesesFor(const FeatureTracks& tracks) const {
   std::vector<MotionHypothesis> hypotheses;
   for (const Hypothesis& kept : hypotheses_) {
     MotionHypothesis hypothesis{kept.newest_from_reference, {}};
@@ -211,22 +212,23 @@ std::vector<MotionHypothesis> PriorHypotheses::HypothesesFor(const Tracks& track
   return hypotheses;
 }
 
-bool PriorHypotheses::Confirm(const Tracks& tracks, const Reconstruction& reconstruction) const {
+bool PriorHypotheses::Confirm(const FeatureTracks& tracks,
+                              const Reconstruction& reconstruction) const {
   if (!sure_) return false;
   const auto pose = ResectNewest(tracks, HypothesesFor(tracks).front());
   return pose && IsSameMotion(*pose, reconstruction.cam_from_reference.back());
 }
 
-ModelSelection SelectModel(const Tracks& tracks,
+ModelSelection SelectModel(const FeatureTracks& tracks,
                            const ModelSelectionOptions& options,
                            PriorHypotheses& prior,
                            Rng& rng) {
-  using enum InitializationWait;
+  using enum InitializationStatus;
   const std::vector<RayMatch> matches = MatchesBetween(tracks.reference, tracks.views.back());
   if (matches.size() < kMinPoints) return {.wait = kTooFewMatches};
   const auto motions = EstimateRelativePoses(matches, {.method = options.relative_pose}, rng);
   if (motions.empty()) return {.wait = kInaccurate};
-  Tracks scaled = tracks;
+  FeatureTracks scaled = tracks;
   ScaleSigmas(std::max(kMinNoise, NoiseOf(matches, motions.front().b_from_a)), scaled);
   std::vector<MotionHypothesis> hypotheses = prior.HypothesesFor(scaled);
   for (const RelativePoseHypothesis& motion : motions) hypotheses.push_back({motion.b_from_a, {}});

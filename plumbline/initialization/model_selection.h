@@ -21,7 +21,7 @@ struct ModelSelectionOptions {
 };
 
 struct ModelSelection {
-  InitializationWait wait = InitializationWait::kNone;
+  InitializationStatus wait = InitializationStatus::kNone;
   // Median over the points of the newest frame; 0 where unknown.
   double parallax_deg = 0;
   std::optional<Reconstruction> reconstruction = std::nullopt;  // its median depth is one
@@ -33,11 +33,11 @@ class PriorHypotheses {
  public:
   void Clear();
   // Keeps the models, the best first. `sure` says that the best would have been accepted.
-  void Keep(const Tracks& tracks, std::span<const CandidateModel> models, bool sure);
-  std::vector<MotionHypothesis> HypothesesFor(const Tracks& tracks) const;
+  void Keep(const FeatureTracks& tracks, std::span<const CandidateModel> models, bool sure);
+  std::vector<MotionHypothesis> HypothesesFor(const FeatureTracks& tracks) const;
   // Whether the best kept model was sure, and its points give the newest frame the pose that the
   // reconstruction has. What was found by chance is not found twice.
-  bool Confirm(const Tracks& tracks, const Reconstruction& reconstruction) const;
+  bool Confirm(const FeatureTracks& tracks, const Reconstruction& reconstruction) const;
 
  private:
   struct Hypothesis {
@@ -66,7 +66,7 @@ class PriorHypotheses {
 //
 // The model has one limit: a scene most of which moves as one rigid body looks like a camera that
 // moves.
-ModelSelection SelectModel(const Tracks& tracks,
+ModelSelection SelectModel(const FeatureTracks& tracks,
                            const ModelSelectionOptions& options,
                            PriorHypotheses& prior,
                            Rng& rng);

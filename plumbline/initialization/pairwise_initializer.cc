@@ -19,7 +19,7 @@ constexpr std::size_t kFewestLandmarks = 30;
 
 }  // namespace
 
-PairwiseInitializer::PairwiseInitializer(const ImagingModel& imaging,
+PairwiseInitializer::PairwiseInitializer(const CameraAndPyramid& imaging,
                                          const InitializationOptions& options,
                                          std::uint64_t seed)
     : camera_(imaging.camera),
@@ -34,12 +34,12 @@ PairwiseInitializer::PairwiseInitializer(const ImagingModel& imaging,
 
 InitializationResult PairwiseInitializer::Add(const InitializationFrame& frame) {
   InitializationResult result = window_.Offer(frame, options_.frames);
-  if (result.wait != InitializationWait::kNone) return result;
+  if (result.wait != InitializationStatus::kNone) return result;
   const std::vector<int> frames = window_.NewestFrames(options_.frames);
-  Tracks tracks = window_.CollectTracks(frames, std::numeric_limits<int>::max());
+  FeatureTracks tracks = window_.CollectTracks(frames, std::numeric_limits<int>::max());
   const std::vector<Rigid3> poses = EstimatePoses(frame.id, tracks);
   if (poses.empty()) {
-    result.wait = InitializationWait::kTooLittleParallax;
+    result.wait = InitializationStatus::kTooLittleParallax;
     return result;
   }
   ++counts_.pairwise_factorizations;
@@ -48,14 +48,14 @@ InitializationResult PairwiseInitializer::Add(const InitializationFrame& frame) 
     counts_.interpolated_places += found->interpolated;
     result.map = MakeMap(frames, found->reconstruction);
   }
-  if (!result.map) result.wait = InitializationWait::kInaccurate;
+  if (!result.map) result.wait = InitializationStatus::kInaccurate;
   return result;
 }
 
-std::vector<Rigid3> PairwiseInitializer::EstimatePoses(FrameId newest, Tracks& tracks) {
+std::vector<Rigid3> PairwiseInitializer::EstimatePoses(FrameId newest, FeatureTracks& tracks) {
   std::vector<Rigid3> poses;
   for (std::size_t i = 0; i < tracks.views.size(); ++i) {
-    TrackedPoints& view = tracks.views[i];
+    ViewPoints& view = tracks.views[i];
     Rng rng(seed_, "pairwise pose", static_cast<std::uint64_t>(newest.value) * 64 + i);
     const auto pose = EstimatePairwisePose(MatchesBetween(tracks.reference, view), rng);
     if (!pose) return {};

@@ -24,7 +24,7 @@ namespace plumbline {
 // are landmarks.
 class PairwiseInitializer : public Initializer {
  public:
-  PairwiseInitializer(const ImagingModel& imaging,
+  PairwiseInitializer(const CameraAndPyramid& imaging,
                       const InitializationOptions& options,
                       std::uint64_t seed);
 
@@ -34,7 +34,7 @@ class PairwiseInitializer : public Initializer {
  private:
   // Finds the pose of each view and leaves out of the tracks what does not fit it; empty where one
   // has none.
-  std::vector<Rigid3> EstimatePoses(FrameId newest, Tracks& tracks);
+  std::vector<Rigid3> EstimatePoses(FrameId newest, FeatureTracks& tracks);
   std::optional<InitialMap> MakeMap(const std::vector<int>& frames,
                                     const Reconstruction& found) const;
 
@@ -42,7 +42,7 @@ class PairwiseInitializer : public Initializer {
   InitializationOptions options_;
   FactorizationOptions factorization_;
   std::uint64_t seed_;
-  FrameWindow window_;
+  InitializationWindow window_;
 };
 
 }  // namespace plumbline

@@ -19,7 +19,7 @@ constexpr double kMaxInterpolationPx = 2;
 
 }  // namespace
 
-Rank1Initializer::Rank1Initializer(const ImagingModel& imaging,
+Rank1Initializer::Rank1Initializer(const CameraAndPyramid& imaging,
                                    const InitializationOptions& options,
                                    std::uint64_t seed,
                                    HelperThread* helper)
@@ -38,10 +38,10 @@ Rank1Initializer::Rank1Initializer(const ImagingModel& imaging,
 InitializationResult Rank1Initializer::Add(const InitializationFrame& frame) {
   InitializationResult result = window_.Offer(frame, frames_);
   // The window has another reference now.
-  if (result.wait == InitializationWait::kTooFewMatches) prior_.Clear();
-  if (result.wait != InitializationWait::kNone) return result;
+  if (result.wait == InitializationStatus::kTooFewMatches) prior_.Clear();
+  if (result.wait != InitializationStatus::kNone) return result;
   const std::vector<int> frames = window_.SelectFrames(frames_);
-  const Tracks tracks = window_.CollectTracks(frames, kMaxTracks);
+  const FeatureTracks tracks = window_.CollectTracks(frames, kMaxTracks);
   ++counts_.model_selections;
   counts_.aligned_images += window_.FollowsImages() ? 1 : 0;
   Rng rng(seed_, "initialization", static_cast<std::uint64_t>(frame.id.value));
@@ -60,7 +60,7 @@ InitializationResult Rank1Initializer::Add(const InitializationFrame& frame) {
                                   window_.LineObservations(frames));
   ScaleToMedianDepth(map);
   if (map.points.size() + map.lines.size() < kMinLandmarks) {
-    result.wait = InitializationWait::kInaccurate;
+    result.wait = InitializationStatus::kInaccurate;
     return result;
   }
   result.map = std::move(map);

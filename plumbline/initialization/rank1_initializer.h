@@ -17,7 +17,7 @@ namespace plumbline {
 // attempt.
 class Rank1Initializer : public Initializer {
  public:
-  Rank1Initializer(const ImagingModel& imaging,
+  Rank1Initializer(const CameraAndPyramid& imaging,
                    const InitializationOptions& options,
                    std::uint64_t seed,
                    HelperThread* helper = nullptr);
@@ -30,7 +30,7 @@ class Rank1Initializer : public Initializer {
   int frames_;  // m of the paper
   ModelSelectionOptions selection_;
   std::uint64_t seed_;
-  FrameWindow window_;
+  InitializationWindow window_;
   PriorHypotheses prior_;
 };
 

@@ -5,7 +5,7 @@
 #include "plumbline/base/median.h"
 #include "plumbline/geometry/line_triangulation.h"
 #include "plumbline/geometry/triangulation.h"
-#include "plumbline/optimization/local_ba.h"
+#include "plumbline/optimization/bundle_adjustment.h"
 #include "plumbline/optimization/residuals.h"
 
 #include <algorithm>
@@ -29,20 +29,20 @@ double LineChi2(const Rigid3& pose, const OrthonormalLine& line, const LineMeasu
   return residual ? residual->r.squaredNorm() : kInfinity;
 }
 
-bool IsSeen(const Tracks& tracks, std::size_t k) {
-  return std::any_of(tracks.views.begin(), tracks.views.end(), [&](const TrackedPoints& view) {
+bool IsSeen(const FeatureTracks& tracks, std::size_t k) {
+  return std::any_of(tracks.views.begin(), tracks.views.end(), [&](const ViewPoints& view) {
     return view.Has(k);
   });
 }
 
-std::optional<PluckerLine> Triangulate(const Tracks& tracks,
+std::optional<PluckerLine> Triangulate(const FeatureTracks& tracks,
                                        const Reconstruction& reconstruction,
                                        std::size_t k) {
   // All residuals are allowed here, because the adjustment of all lines together finds what the
   // views disagree about.
   constexpr double kAnyResidual = 1e9;
   std::vector<LineView> views;
-  VisitViews(tracks.lines, k, [&](std::size_t i, const TrackedLines& view) {
+  VisitViews(tracks.lines, k, [&](std::size_t i, const ViewLines& view) {
     views.push_back({reconstruction.Pose(i), view.segments[k], view.sigmas[k]});
   });
   const auto line = TriangulateLine(
@@ -53,19 +53,19 @@ std::optional<PluckerLine> Triangulate(const Tracks& tracks,
 
 }  // namespace
 
-PointMeasurement MeasurementOf(const TrackedPoints& view, std::size_t k) {
+PointMeasurement MeasurementOf(const ViewPoints& view, std::size_t k) {
   return {view.points[k], view.sigmas[k], std::nullopt};
 }
 
-LineMeasurement MeasurementOf(const TrackedLines& view, std::size_t k, double noise) {
+LineMeasurement MeasurementOf(const ViewLines& view, std::size_t k, double noise) {
   const double sigma = noise * view.sigmas[k];
   return {view.segments[k], sigma * sigma * Eigen::Matrix2d::Identity()};
 }
 
-void TriangulatePoints(const Tracks& tracks, Reconstruction& reconstruction) {
+void TriangulatePoints(const FeatureTracks& tracks, Reconstruction& reconstruction) {
   for (std::size_t k = 0; k < tracks.size(); ++k) {
     std::vector<PointView> views;
-    VisitViews(tracks, k, [&](std::size_t i, const TrackedPoints& view) {
+    VisitViews(tracks, k, [&](std::size_t i, const ViewPoints& view) {
       views.push_back({reconstruction.Pose(i), view.points[k], view.sigmas[k], std::nullopt});
     });
     const auto point = TriangulatePoint(kIdealCamera, views, {.min_parallax = 0});
@@ -73,14 +73,14 @@ void TriangulatePoints(const Tracks& tracks, Reconstruction& reconstruction) {
   }
 }
 
-void TriangulateLines(const Tracks& tracks, Reconstruction& reconstruction) {
+void TriangulateLines(const FeatureTracks& tracks, Reconstruction& reconstruction) {
   reconstruction.lines.clear();
   for (std::size_t k = 0; k < tracks.lines.size(); ++k) {
     reconstruction.lines.push_back(Triangulate(tracks, reconstruction, k));
   }
 }
 
-ReprojectionFit EvaluatePoints(const Tracks& tracks,
+ReprojectionFit EvaluatePoints(const FeatureTracks& tracks,
                                const Reconstruction& reconstruction,
                                double max_chi2) {
   ReprojectionFit fit;
@@ -88,7 +88,7 @@ ReprojectionFit EvaluatePoints(const Tracks& tracks,
   for (std::size_t k = 0; k < tracks.size(); ++k) {
     if (!IsSeen(tracks, k)) continue;
     parameters += 3;
-    VisitViews(tracks, k, [&](std::size_t i, const TrackedPoints& view) {
+    VisitViews(tracks, k, [&](std::size_t i, const ViewPoints& view) {
       const double chi2 =
           reconstruction.is_known[k]
               ? PointChi2(reconstruction.Pose(i), reconstruction.points[k], MeasurementOf(view, k))
@@ -103,7 +103,7 @@ ReprojectionFit EvaluatePoints(const Tracks& tracks,
   return fit;
 }
 
-std::vector<LineFit> EvaluateLines(const Tracks& tracks,
+std::vector<LineFit> EvaluateLines(const FeatureTracks& tracks,
                                    const Reconstruction& reconstruction,
                                    double max_chi2) {
   std::vector<LineFit> fits(reconstruction.lines.size());
@@ -113,7 +113,7 @@ std::vector<LineFit> EvaluateLines(const Tracks& tracks,
     const auto line = place ? ToOrthonormal(*place) : OrthonormalLine{};
     fit.inlier = place.has_value();
     fit.freedom = -4;
-    VisitViews(tracks.lines, k, [&](std::size_t i, const TrackedLines& view) {
+    VisitViews(tracks.lines, k, [&](std::size_t i, const ViewLines& view) {
       const double chi2 =
           place ? LineChi2(reconstruction.Pose(i), line, MeasurementOf(view, k)) : kInfinity;
       fit.chi2 += chi2;
@@ -125,7 +125,7 @@ std::vector<LineFit> EvaluateLines(const Tracks& tracks,
   return fits;
 }
 
-Reconstruction BundleAdjust(const Tracks& tracks,
+Reconstruction BundleAdjust(const FeatureTracks& tracks,
                             Reconstruction reconstruction,
                             int max_iterations) {
   BaProblem problem;
@@ -138,7 +138,7 @@ Reconstruction BundleAdjust(const Tracks& tracks,
   for (std::size_t k = 0; k < tracks.size(); ++k) {
     if (!reconstruction.is_known[k] || !IsSeen(tracks, k)) continue;
     problem.points.push_back(reconstruction.points[k]);
-    VisitViews(tracks, k, [&](std::size_t i, const TrackedPoints& view) {
+    VisitViews(tracks, k, [&](std::size_t i, const ViewPoints& view) {
       problem.point_observations.push_back(
           {static_cast<int>(i), static_cast<int>(points.size()), MeasurementOf(view, k)});
     });
@@ -148,7 +148,7 @@ Reconstruction BundleAdjust(const Tracks& tracks,
   for (std::size_t k = 0; k < reconstruction.lines.size(); ++k) {
     if (!reconstruction.lines[k]) continue;
     problem.lines.push_back(ToOrthonormal(*reconstruction.lines[k]));
-    VisitViews(tracks.lines, k, [&](std::size_t i, const TrackedLines& view) {
+    VisitViews(tracks.lines, k, [&](std::size_t i, const ViewLines& view) {
       problem.line_observations.push_back(
           {static_cast<int>(i), static_cast<int>(lines.size()), MeasurementOf(view, k)});
     });

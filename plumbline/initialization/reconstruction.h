@@ -41,16 +41,16 @@ inline constexpr RectifiedCamera kIdealCamera = [] {
 
 // Returns the measurement of point or line k in a frame. The standard deviation of a line is
 // multiplied by `noise`.
-PointMeasurement MeasurementOf(const TrackedPoints& view, std::size_t k);
-LineMeasurement MeasurementOf(const TrackedLines& view, std::size_t k, double noise = 1);
+PointMeasurement MeasurementOf(const ViewPoints& view, std::size_t k);
+LineMeasurement MeasurementOf(const ViewLines& view, std::size_t k, double noise = 1);
 
 // Puts each point where all its rays from the poses of a reconstruction meet. Points whose rays do
 // not meet in front have no place.
-void TriangulatePoints(const Tracks& tracks, Reconstruction& reconstruction);
+void TriangulatePoints(const FeatureTracks& tracks, Reconstruction& reconstruction);
 
 // Triangulates the lines of the tracks from the poses (TriangulateLine). Lines that would lie
 // behind a camera, or whose views hardly differ, have no place.
-void TriangulateLines(const Tracks& tracks, Reconstruction& reconstruction);
+void TriangulateLines(const FeatureTracks& tracks, Reconstruction& reconstruction);
 
 // How well the points of a reconstruction fit the tracks.
 struct ReprojectionFit {
@@ -66,7 +66,7 @@ struct ReprojectionFit {
 
 // Tests all points against their measurements.
 //   max_chi2  limit of an error, in variances as assumed
-ReprojectionFit EvaluatePoints(const Tracks& tracks,
+ReprojectionFit EvaluatePoints(const FeatureTracks& tracks,
                                const Reconstruction& reconstruction,
                                double max_chi2);
 
@@ -83,14 +83,14 @@ struct LineFit {
 // Tests each line against its measurements.
 //   max_chi2  limit for the two ends in one view
 //   returns   one for each line of the tracks; empty where lines do not take part
-std::vector<LineFit> EvaluateLines(const Tracks& tracks,
+std::vector<LineFit> EvaluateLines(const FeatureTracks& tracks,
                                    const Reconstruction& reconstruction,
                                    double max_chi2);
 
 // A short joint bundle adjustment of all frames, and of all points and lines that have a place. It
 // uses the matches alone, since interpolated places are not measurements. The reference is fixed;
 // damping holds the unit.
-Reconstruction BundleAdjust(const Tracks& tracks,
+Reconstruction BundleAdjust(const FeatureTracks& tracks,
                             Reconstruction reconstruction,
                             int max_iterations);
 

@@ -119,7 +119,7 @@ struct Depths {
   // One column for each point: minus the derivative of its log depth by the poses.
   Eigen::MatrixXd columns;
 
-  explicit Depths(const Tracks& tracks)
+  explicit Depths(const FeatureTracks& tracks)
       : columns(6 * tracks.views.size(), tracks.reference.points.size()) {}
 
   void Add(std::size_t k, const NormalBlocks<3>& blocks, const Eigen::Matrix3d& inverse, double z) {
@@ -141,7 +141,7 @@ struct Depths {
 // Builds the normal equations of points.
 class PointEquations {
  public:
-  PointEquations(const Tracks& tracks, const Reconstruction& reconstruction)
+  PointEquations(const FeatureTracks& tracks, const Reconstruction& reconstruction)
       : tracks_(tracks), reconstruction_(reconstruction) {
     for (const Rigid3& pose : reconstruction.cam_from_reference) {
       rotations_.push_back(pose.rotation.toRotationMatrix());
@@ -158,7 +158,7 @@ class PointEquations {
     blocks.V = in_reference->J.transpose() * in_reference->J;
     bool seen = false;
     for (std::size_t i = 0; i < tracks_.views.size(); ++i) {
-      const TrackedPoints& view = tracks_.views[i];
+      const ViewPoints& view = tracks_.views[i];
       if (!view.Has(k)) continue;
       const Eigen::Vector3d in_cam =
           rotations_[i] * X + reconstruction_.cam_from_reference[i].translation;
@@ -173,13 +173,13 @@ class PointEquations {
   }
 
  private:
-  const Tracks& tracks_;
+  const FeatureTracks& tracks_;
   const Reconstruction& reconstruction_;
   std::vector<Eigen::Matrix3d> rotations_;
 };
 
 // Eliminates a line that fits all views that show it.
-void EliminateLine(const Tracks& tracks,
+void EliminateLine(const FeatureTracks& tracks,
                    const Reconstruction& reconstruction,
                    std::size_t k,
                    double noise,
@@ -191,7 +191,7 @@ void EliminateLine(const Tracks& tracks,
   if (!in_reference) return;
   blocks.V = in_reference->J_line.transpose() * in_reference->J_line;
   for (std::size_t i = 0; i < tracks.lines.views.size(); ++i) {
-    const TrackedLines& view = tracks.lines.views[i];
+    const ViewLines& view = tracks.lines.views[i];
     if (!view.Has(k)) continue;
     const auto measured = EvaluateLine(
         kIdealCamera, reconstruction.cam_from_reference[i], line, MeasurementOf(view, k, noise));
@@ -253,7 +253,7 @@ std::vector<double> RelativeDepthSigmas(std::size_t points,
 
 }  // namespace
 
-std::optional<ReconstructionCovariance> ComputeCovariance(const Tracks& tracks,
+std::optional<ReconstructionCovariance> ComputeCovariance(const FeatureTracks& tracks,
                                                           const Reconstruction& reconstruction,
                                                           double noise,
                                                           double max_chi2,

@@ -31,7 +31,7 @@ struct ReconstructionCovariance {
 //               an inlier in all views that show it
 //   returns     nullopt where the frames do not fix all poses
 //   cost        O(points views^2)
-std::optional<ReconstructionCovariance> ComputeCovariance(const Tracks& tracks,
+std::optional<ReconstructionCovariance> ComputeCovariance(const FeatureTracks& tracks,
                                                           const Reconstruction& reconstruction,
                                                           double noise,
                                                           double max_chi2,

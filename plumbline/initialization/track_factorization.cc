@@ -5,7 +5,7 @@
 #include "plumbline/base/median.h"
 #include "plumbline/initialization/geometric_interpolation.h"
 #include "plumbline/initialization/reconstruction_covariance.h"
-#include "plumbline/optimization/pose_only.h"
+#include "plumbline/optimization/pose_optimization.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ double MedianOfPositive(const std::vector<double>& inverse_distances) {
 }
 
 // Returns the points in space. Points near infinity are put at `kFarthest`.
-Reconstruction ToReconstruction(const Tracks& tracks,
+Reconstruction ToReconstruction(const FeatureTracks& tracks,
                                 const std::vector<double>& inverse_distances,
                                 std::vector<Rigid3> poses) {
   Reconstruction reconstruction{std::move(poses), {}, {}};
@@ -49,7 +49,8 @@ Reconstruction ToReconstruction(const Tracks& tracks,
 }
 
 // Returns the structure from two frames alone: a factorization of one view.
-std::optional<Reconstruction> StructureOfTwoFrames(const Tracks& tracks, const Rigid3& newest) {
+std::optional<Reconstruction> StructureOfTwoFrames(const FeatureTracks& tracks,
+                                                   const Rigid3& newest) {
   const Rank1View view = Rank1ViewOf(tracks.views.back(), newest);
   const auto factors =
       FactorizeRank1(tracks.reference.points, std::span(&view, 1), {.iterations = 0});
@@ -64,8 +65,8 @@ std::optional<Reconstruction> StructureOfTwoFrames(const Tracks& tracks, const R
 
 // Returns the pose of a frame from the points that it shows; nullopt where the frame does not fit
 // them.
-std::optional<Rigid3> Resect(const Tracks& tracks,
-                             const TrackedPoints& seen,
+std::optional<Rigid3> Resect(const FeatureTracks& tracks,
+                             const ViewPoints& seen,
                              const Reconstruction& structure,
                              const Rigid3& guess) {
   PoseProblem problem;
@@ -88,7 +89,7 @@ std::optional<Rigid3> Resect(const Tracks& tracks,
 
 // Returns the poses of all views in the unit of the structure. With `newest_held` the newest pose
 // stays as it is.
-std::optional<std::vector<Rigid3>> ResectViews(const Tracks& tracks,
+std::optional<std::vector<Rigid3>> ResectViews(const FeatureTracks& tracks,
                                                const Reconstruction& structure,
                                                bool newest_held) {
   const Rigid3& newest = structure.cam_from_reference.front();
@@ -108,14 +109,15 @@ std::optional<std::vector<Rigid3>> ResectViews(const Tracks& tracks,
 // Returns the inverse distances of all points from known poses. A point lies along the unit ray p
 // of the reference, at the inverse distance d that makes R p + d t parallel to the measured rays,
 // by linear least squares over all views.
-std::vector<double> InverseDistances(const Tracks& tracks, const std::vector<Rigid3>& poses) {
+std::vector<double> InverseDistances(const FeatureTracks& tracks,
+                                     const std::vector<Rigid3>& poses) {
   std::vector<double> inverse_distances;
   for (std::size_t k = 0; k < tracks.size(); ++k) {
     const Eigen::Vector3d p = tracks.reference.points[k].homogeneous().normalized();
     double along = 0;
     double squared = 0;
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      const TrackedPoints& seen = tracks.views[i];
+      const ViewPoints& seen = tracks.views[i];
       if (!seen.Has(k)) continue;
       const Eigen::Vector3d ray = seen.points[k].homogeneous().normalized() / seen.sigmas[k];
       const Eigen::Vector3d across = ray.cross(poses[i].translation);
@@ -128,8 +130,8 @@ std::vector<double> InverseDistances(const Tracks& tracks, const std::vector<Rig
 }
 
 // Factorizes the views and puts the resulting centres into the poses.
-std::optional<Reconstruction> Factorize(const Tracks& tracks,
-                                        const std::vector<TrackedPoints>& seen,
+std::optional<Reconstruction> Factorize(const FeatureTracks& tracks,
+                                        const std::vector<ViewPoints>& seen,
                                         const std::vector<Rigid3>& poses,
                                         const FactorizationOptions& options) {
   std::vector<Rank1View> views;
@@ -145,26 +147,26 @@ std::optional<Reconstruction> Factorize(const Tracks& tracks,
 }
 
 // Returns the views with only the points that all of them show.
-std::vector<TrackedPoints> CompleteTracks(const Tracks& tracks) {
-  std::vector<TrackedPoints> complete = tracks.views;
+std::vector<ViewPoints> CompleteTracks(const FeatureTracks& tracks) {
+  std::vector<ViewPoints> complete = tracks.views;
   for (std::size_t k = 0; k < tracks.size(); ++k) {
     const bool all = std::all_of(tracks.views.begin(),
                                  tracks.views.end(),
-                                 [k](const TrackedPoints& view) { return view.Has(k); });
+                                 [k](const ViewPoints& view) { return view.Has(k); });
     if (all) continue;
-    for (TrackedPoints& view : complete) view.sigmas[k] = 0;
+    for (ViewPoints& view : complete) view.sigmas[k] = 0;
   }
   return complete;
 }
 
 // Returns the views, with missing points interpolated between the reference and the newest frame.
-std::vector<TrackedPoints> InterpolateMissing(const Tracks& tracks,
-                                              const Reconstruction& solution,
-                                              const FactorizationOptions& options) {
-  std::vector<TrackedPoints> completed = tracks.views;
+std::vector<ViewPoints> InterpolateMissing(const FeatureTracks& tracks,
+                                           const Reconstruction& solution,
+                                           const FactorizationOptions& options) {
+  std::vector<ViewPoints> completed = tracks.views;
   const auto covariance = ComputeCovariance(tracks, solution, 1, kMaxChi2);
   if (!covariance) return completed;
-  const TrackedPoints& newest = tracks.views.back();
+  const ViewPoints& newest = tracks.views.back();
   const auto last = static_cast<Eigen::Index>(6 * (tracks.views.size() - 1));
   for (std::size_t i = 0; i + 1 < completed.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(6 * i);
@@ -189,18 +191,18 @@ std::vector<TrackedPoints> InterpolateMissing(const Tracks& tracks,
   return completed;
 }
 
-int CountPlaces(const std::vector<TrackedPoints>& views) {
+int CountPlaces(const std::vector<ViewPoints>& views) {
   std::size_t places = 0;
-  for (const TrackedPoints& view : views) places += view.CountSeen();
+  for (const ViewPoints& view : views) places += view.CountSeen();
   return static_cast<int>(places);
 }
 
 // Returns the inverse distances of all points from the reference and one view with a translation of
 // length one.
-std::vector<double> InverseDistancesOfPair(const Tracks& tracks,
-                                           const TrackedPoints& view,
+std::vector<double> InverseDistancesOfPair(const FeatureTracks& tracks,
+                                           const ViewPoints& view,
                                            const Rigid3& pose) {
-  Tracks pair;
+  FeatureTracks pair;
   pair.reference = tracks.reference;
   pair.views = {view};
   return InverseDistances(pair, {pose});
@@ -209,7 +211,8 @@ std::vector<double> InverseDistancesOfPair(const Tracks& tracks,
 // Gives each translation its length, that of the first being one: the points that a frame and the
 // one before it both show have one distance, which the pairs of both frames with the reference tell
 // in units of their translations. Returns nullopt where two frames have no such point in common.
-std::optional<std::vector<Rigid3>> ChainLengths(const Tracks& tracks, std::vector<Rigid3> poses) {
+std::optional<std::vector<Rigid3>> ChainLengths(const FeatureTracks& tracks,
+                                                std::vector<Rigid3> poses) {
   std::vector<double> before = InverseDistancesOfPair(tracks, tracks.views[0], poses[0]);
   double length = 1;
   for (std::size_t i = 1; i < poses.size(); ++i) {
@@ -228,7 +231,7 @@ std::optional<std::vector<Rigid3>> ChainLengths(const Tracks& tracks, std::vecto
 
 }  // namespace
 
-std::optional<PairwiseReconstruction> FactorizePairwise(const Tracks& tracks,
+std::optional<PairwiseReconstruction> FactorizePairwise(const FeatureTracks& tracks,
                                                         const std::vector<Rigid3>& poses,
                                                         MissingPlaces missing,
                                                         const FactorizationOptions& options) {
@@ -240,7 +243,7 @@ std::optional<PairwiseReconstruction> FactorizePairwise(const Tracks& tracks,
     const auto scaled = ChainLengths(tracks, poses);
     return scaled ? std::optional(triangulated(*scaled)) : std::nullopt;
   }
-  std::vector<TrackedPoints> completed = CompleteTracks(tracks);
+  std::vector<ViewPoints> completed = CompleteTracks(tracks);
   auto first = Factorize(tracks, completed, poses, options);
   if (!first) {
     completed = tracks.views;
@@ -259,13 +262,14 @@ std::optional<PairwiseReconstruction> FactorizePairwise(const Tracks& tracks,
   return PairwiseReconstruction{*std::move(all), interpolated};
 }
 
-std::optional<Rigid3> ResectNewest(const Tracks& tracks, const MotionHypothesis& hypothesis) {
+std::optional<Rigid3> ResectNewest(const FeatureTracks& tracks,
+                                   const MotionHypothesis& hypothesis) {
   const Rigid3& guess = hypothesis.newest_from_reference;
   const Reconstruction structure = ToReconstruction(tracks, hypothesis.inverse_distances, {guess});
   return Resect(tracks, tracks.views.back(), structure, guess);
 }
 
-Rank1View Rank1ViewOf(const TrackedPoints& seen, const Rigid3& pose) {
+Rank1View Rank1ViewOf(const ViewPoints& seen, const Rigid3& pose) {
   const Rigid3 reference_from_cam = Inverse(pose);
   const double length = reference_from_cam.translation.norm();
   return {reference_from_cam.rotation,
@@ -275,7 +279,7 @@ Rank1View Rank1ViewOf(const TrackedPoints& seen, const Rigid3& pose) {
           seen.sigmas};
 }
 
-std::optional<Reconstruction> FactorizeTracks(const Tracks& tracks,
+std::optional<Reconstruction> FactorizeTracks(const FeatureTracks& tracks,
                                               const MotionHypothesis& hypothesis,
                                               const FactorizationOptions& options) {
   const bool two_frames = hypothesis.inverse_distances.empty();

@@ -33,11 +33,11 @@ struct MotionHypothesis {
 
 // Returns the pose of the newest frame from the points of a hypothesis that has points; nullopt
 // where too few of them fit.
-std::optional<Rigid3> ResectNewest(const Tracks& tracks, const MotionHypothesis& hypothesis);
+std::optional<Rigid3> ResectNewest(const FeatureTracks& tracks, const MotionHypothesis& hypothesis);
 
 // Returns what a view contributes to the measurement matrix: the points seen, the rotation of the
 // pose and the direction of its centre.
-Rank1View Rank1ViewOf(const TrackedPoints& seen, const Rigid3& pose);
+Rank1View Rank1ViewOf(const ViewPoints& seen, const Rigid3& pose);
 
 // Finds motion and structure of all frames at once (first paper, section 2), from one hypothesis.
 //
@@ -52,7 +52,7 @@ Rank1View Rank1ViewOf(const TrackedPoints& seen, const Rigid3& pose);
 // Without `factorize` the poses of step 1 stay, and the points are triangulated from them.
 //
 //   returns  nullopt where a frame does not fit the hypothesis, or too few points are left
-std::optional<Reconstruction> FactorizeTracks(const Tracks& tracks,
+std::optional<Reconstruction> FactorizeTracks(const FeatureTracks& tracks,
                                               const MotionHypothesis& hypothesis,
                                               const FactorizationOptions& options);
 
@@ -76,7 +76,7 @@ struct PairwiseReconstruction {
 //
 //   poses    view_from_reference of each view of the tracks
 //   returns  nullopt where too few points are left, or most lie behind the cameras
-std::optional<PairwiseReconstruction> FactorizePairwise(const Tracks& tracks,
+std::optional<PairwiseReconstruction> FactorizePairwise(const FeatureTracks& tracks,
                                                         const std::vector<Rigid3>& poses,
                                                         MissingPlaces missing,
                                                         const FactorizationOptions& options);

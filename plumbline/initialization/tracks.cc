@@ -66,7 +66,7 @@ std::vector<bool> ChooseFollowed(std::span<const PointFeature> points) {
 
 }  // namespace
 
-std::vector<RayMatch> MatchesBetween(const TrackedPoints& reference, const TrackedPoints& view) {
+std::vector<RayMatch> MatchesBetween(const ViewPoints& reference, const ViewPoints& view) {
   std::vector<RayMatch> matches;
   for (std::size_t k = 0; k < reference.points.size(); ++k) {
     if (!view.Has(k)) continue;
@@ -75,7 +75,7 @@ std::vector<RayMatch> MatchesBetween(const TrackedPoints& reference, const Track
   return matches;
 }
 
-TrackedPixels FrameWindow::MatchedFrame::Pixels() const {
+TrackedPixels InitializationWindow::MatchedFrame::Pixels() const {
   TrackedPixels pixels(places.size());
   for (std::size_t k = 0; k < places.size(); ++k) {
     if (places[k].sigma_px > 0) pixels[k] = places[k].px;
@@ -83,14 +83,14 @@ TrackedPixels FrameWindow::MatchedFrame::Pixels() const {
   return pixels;
 }
 
-void FrameWindow::Reset() {
+void InitializationWindow::Reset() {
   reference_.reset();
   frames_.clear();
   most_matches_ = 0;
 }
 
-InitializationResult FrameWindow::Offer(const InitializationFrame& frame, int needed) {
-  using enum InitializationWait;
+InitializationResult InitializationWindow::Offer(const InitializationFrame& frame, int needed) {
+  using enum InitializationStatus;
   if (frame.indexed->features.points.size() < kMinFeatures) return {.wait = kTooFewFeatures};
   const bool is_first = empty();
   const int matches = Add(frame);
@@ -107,7 +107,7 @@ InitializationResult FrameWindow::Offer(const InitializationFrame& frame, int ne
   return result;
 }
 
-void FrameWindow::SetReference(const InitializationFrame& frame) {
+void InitializationWindow::SetReference(const InitializationFrame& frame) {
   reference_ = frame;
   if (matching_ == InitialMatching::kDescriptors) return;
   PLUMBLINE_CHECK(frame.image != nullptr, "points are followed on images");
@@ -121,7 +121,7 @@ void FrameWindow::SetReference(const InitializationFrame& frame) {
   warps_.assign(points.size(), Eigen::Matrix2d::Identity());
 }
 
-int FrameWindow::Add(const InitializationFrame& frame) {
+int InitializationWindow::Add(const InitializationFrame& frame) {
   if (!reference_) {
     SetReference(frame);
     return 0;
@@ -143,7 +143,7 @@ int FrameWindow::Add(const InitializationFrame& frame) {
   return static_cast<int>(count);
 }
 
-std::vector<FrameWindow::Place> FrameWindow::PlacesOfMatches(
+std::vector<InitializationWindow::Place> InitializationWindow::PlacesOfMatches(
     const Features& features, const ReferenceMatches& matches) const {
   std::vector<Place> places(reference_->indexed->features.points.size());
   for (const PointMatch& match : matches.points) {
@@ -156,8 +156,8 @@ std::vector<FrameWindow::Place> FrameWindow::PlacesOfMatches(
 // Returns the places of the reference's points in the image. Points are followed from the last
 // image; points that were lost are matched by descriptor. Each is then brought to where the image
 // looks as in the reference, and followed from there in the next image.
-std::vector<FrameWindow::Place> FrameWindow::PlacesOnImage(const InitializationFrame& frame,
-                                                           const ReferenceMatches& matches) {
+std::vector<InitializationWindow::Place> InitializationWindow::PlacesOnImage(
+    const InitializationFrame& frame, const ReferenceMatches& matches) {
   PLUMBLINE_CHECK(frame.image != nullptr, "points are followed on images");
   const std::vector<PointFeature>& reference = reference_->indexed->features.points;
   flow_.Follow(frame.image, helper_);
@@ -177,9 +177,9 @@ std::vector<FrameWindow::Place> FrameWindow::PlacesOnImage(const InitializationF
 }
 
 // Returns where the image looks as the reference does around its points (AlignPatches).
-TrackedPixels FrameWindow::AlignWithReference(const GrayImage& image,
-                                              const TrackedPixels& guesses,
-                                              const Eigen::Matrix2d& linear) {
+TrackedPixels InitializationWindow::AlignWithReference(const GrayImage& image,
+                                                       const TrackedPixels& guesses,
+                                                       const Eigen::Matrix2d& linear) {
   const std::span reference(reference_->indexed->features.points);
   TrackedPixels aligned(reference.size());
   const auto align = [&](std::size_t begin, std::size_t end) {
@@ -197,7 +197,7 @@ TrackedPixels FrameWindow::AlignWithReference(const GrayImage& image,
   return aligned;
 }
 
-void FrameWindow::MoveReference() {
+void InitializationWindow::MoveReference() {
   PLUMBLINE_CHECK(!frames_.empty(), "no frame to move to");
   std::vector<MatchedFrame> old = std::exchange(frames_, {});
   const std::size_t middle = (old.size() - 1) / 2;
@@ -205,14 +205,14 @@ void FrameWindow::MoveReference() {
   for (std::size_t i = middle + 1; i < old.size(); ++i) Add(old[i].frame);
 }
 
-std::vector<int> FrameWindow::SelectFrames(int count) const {
+std::vector<int> InitializationWindow::SelectFrames(int count) const {
   const int chosen = std::min(count, size());
   std::vector<int> frames;
   for (int j = 1; j <= chosen; ++j) frames.push_back((j * size() + chosen / 2) / chosen - 1);
   return frames;
 }
 
-std::vector<int> FrameWindow::NewestFrames(int count) const {
+std::vector<int> InitializationWindow::NewestFrames(int count) const {
   std::vector<int> frames;
   for (int i = std::max(0, size() - count); i < size(); ++i) frames.push_back(i);
   return frames;
@@ -221,8 +221,8 @@ std::vector<int> FrameWindow::NewestFrames(int count) const {
 // Returns at most `count` of the reference's features. In each round every cell of the image gives
 // its best remaining feature. Features that the newest frame shows come first, then those that most
 // frames show, then those with the least noise.
-std::vector<std::size_t> FrameWindow::SelectFeatures(const std::vector<int>& frames,
-                                                     int count) const {
+std::vector<std::size_t> InitializationWindow::SelectFeatures(const std::vector<int>& frames,
+                                                              int count) const {
   constexpr int kColumns = 8;
   constexpr int kRows = 6;
   const std::vector<PointFeature>& points = reference_->indexed->features.points;
@@ -261,12 +261,13 @@ std::vector<std::size_t> FrameWindow::SelectFeatures(const std::vector<int>& fra
   return chosen;
 }
 
-Tracks FrameWindow::CollectTracks(const std::vector<int>& frames, int max_points) const {
+FeatureTracks InitializationWindow::CollectTracks(const std::vector<int>& frames,
+                                                  int max_points) const {
   const std::vector<PointFeature>& reference = reference_->indexed->features.points;
   const double focal = 0.5 * (camera_.fx + camera_.fy);
-  Tracks tracks;
+  FeatureTracks tracks;
   tracks.views.resize(frames.size());
-  const auto add = [&](const Place& place, TrackedPoints& points) {
+  const auto add = [&](const Place& place, ViewPoints& points) {
     const bool seen = place.sigma_px > 0;
     points.points.push_back(seen ? Eigen::Vector2d(camera_.Unproject(place.px).hnormalized())
                                  : Eigen::Vector2d::Zero());
@@ -283,7 +284,7 @@ Tracks FrameWindow::CollectTracks(const std::vector<int>& frames, int max_points
   return tracks;
 }
 
-LineTracks FrameWindow::CollectLineTracks(const std::vector<int>& frames) const {
+LineTracks InitializationWindow::CollectLineTracks(const std::vector<int>& frames) const {
   const std::vector<LineFeature>& reference = reference_->indexed->features.lines;
   const double focal = 0.5 * (camera_.fx + camera_.fy);
   const auto ideal = [&](const Segment2& segment) {
@@ -297,7 +298,7 @@ LineTracks FrameWindow::CollectLineTracks(const std::vector<int>& frames) const 
     const LineFeature& line = reference[Index(track.front().feature)];
     lines.reference.segments.push_back(ideal(line.segment));
     lines.reference.sigmas.push_back(line.sigma_px / focal);
-    for (TrackedLines& view : lines.views) {
+    for (ViewLines& view : lines.views) {
       view.segments.emplace_back();
       view.sigmas.push_back(0);
     }
@@ -312,7 +313,8 @@ LineTracks FrameWindow::CollectLineTracks(const std::vector<int>& frames) const 
   return lines;
 }
 
-std::vector<FeatureTrack> FrameWindow::PointObservations(const std::vector<int>& frames) const {
+std::vector<FeatureTrack> InitializationWindow::PointObservations(
+    const std::vector<int>& frames) const {
   const std::size_t size = reference_->indexed->features.points.size();
   std::vector<FeatureTrack> tracks(size);
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -329,7 +331,8 @@ std::vector<FeatureTrack> FrameWindow::PointObservations(const std::vector<int>&
   return tracks;
 }
 
-std::vector<FeatureTrack> FrameWindow::LineObservations(const std::vector<int>& frames) const {
+std::vector<FeatureTrack> InitializationWindow::LineObservations(
+    const std::vector<int>& frames) const {
   std::vector<FeatureTrack> tracks(reference_->indexed->features.lines.size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
     for (const LineMatch& match : frames_[Index(frames[i])].matches.lines) {

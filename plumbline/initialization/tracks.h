@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/projection_search.h"
 #include "plumbline/base/helper_thread.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/segment.h"
 #include "plumbline/initialization/initializer.h"
 #include "plumbline/initialization/klt_tracks.h"
 #include "plumbline/initialization/matching.h"
+#include "plumbline/matching/projection_search.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -20,7 +20,7 @@
 namespace plumbline {
 
 // The points of the reference in one frame, in ideal image coordinates (x/z, y/z).
-struct TrackedPoints {
+struct ViewPoints {
   std::vector<Eigen::Vector2d> points;  // one place for each point of the reference
   // Standard deviation of each coordinate; 0 where the point was not matched.
   std::vector<double> sigmas;
@@ -33,7 +33,7 @@ struct TrackedPoints {
 };
 
 // The lines of the reference in one frame, as segments in ideal image coordinates.
-struct TrackedLines {
+struct ViewLines {
   std::vector<Segment2> segments;  // one segment for each line of the reference
   // Standard deviation of each end across the line; 0 where the line was not matched.
   std::vector<double> sigmas;
@@ -44,25 +44,25 @@ struct TrackedLines {
 // The lines of a reference frame that at least two later frames show. Two views of a line say
 // nothing about the cameras, three do.
 struct LineTracks {
-  TrackedLines reference;           // shows all lines
-  std::vector<TrackedLines> views;  // empty where there are no lines
+  ViewLines reference;           // shows all lines
+  std::vector<ViewLines> views;  // empty where there are no lines
 
   std::size_t size() const { return reference.segments.size(); }
 };
 
 // The points and lines of a reference frame in m later frames, only as far as they were matched:
 // not every frame shows every point.
-struct Tracks {
-  TrackedPoints reference;           // shows all points
-  std::vector<TrackedPoints> views;  // in order of time; the last is the newest frame
-  std::vector<int> features;         // feature of the reference for each point
+struct FeatureTracks {
+  ViewPoints reference;           // shows all points
+  std::vector<ViewPoints> views;  // in order of time; the last is the newest frame
+  std::vector<int> features;      // feature of the reference for each point
   LineTracks lines;
 
   std::size_t size() const { return reference.points.size(); }
 };
 
 // Calls visit(view, tracked) for the reference (view 0) and each later view (from 1 on) that shows
-// point k of Tracks or line k of LineTracks.
+// point k of FeatureTracks or line k of LineTracks.
 template <class PointsOrLines, class Visit>
 void VisitViews(const PointsOrLines& tracks, std::size_t k, const Visit& visit) {
   visit(0, tracks.reference);
@@ -71,7 +71,7 @@ void VisitViews(const PointsOrLines& tracks, std::size_t k, const Visit& visit) 
   }
 }
 
-// Multiplies the standard deviations of points (Tracks) or of lines (LineTracks).
+// Multiplies the standard deviations of points (FeatureTracks) or of lines (LineTracks).
 template <class PointsOrLines>
 void ScaleSigmas(double factor, PointsOrLines& tracks) {
   const auto scale = [factor](auto& tracked) {
@@ -82,15 +82,17 @@ void ScaleSigmas(double factor, PointsOrLines& tracks) {
 }
 
 // Returns the points that a frame shows, each with its place in the reference, in order.
-std::vector<RayMatch> MatchesBetween(const TrackedPoints& reference, const TrackedPoints& view);
+std::vector<RayMatch> MatchesBetween(const ViewPoints& reference, const ViewPoints& view);
 
-// Tracks features over frames: a reference frame, and the frames since, matched with it. Frames are
-// kept when an attempt at a map fails; beyond a limit every second one is dropped. The reference
-// moves forward only when matches with it die out.
-class FrameWindow {
+// FeatureTracks features over frames: a reference frame, and the frames since, matched with it.
+// Frames are kept when an attempt at a map fails; beyond a limit every second one is dropped. The
+// reference moves forward only when matches with it die out.
+class InitializationWindow {
  public:
   // The helper shares the work on images, with the same result; it has to outlive the window.
-  FrameWindow(const ImagingModel& imaging, InitialMatching matching, HelperThread* helper = nullptr)
+  InitializationWindow(const CameraAndPyramid& imaging,
+                       InitialMatching matching,
+                       HelperThread* helper = nullptr)
       : camera_(imaging.camera),
         octave_scale_(imaging.octave_scale),
         matching_(matching),
@@ -131,7 +133,7 @@ class FrameWindow {
   // Returns the places of the reference's points in the frames. At most `max_points` points, spread
   // over the image, are taken: first those that the newest frame shows, then those that most frames
   // show.
-  Tracks CollectTracks(const std::vector<int>& frames, int max_points) const;
+  FeatureTracks CollectTracks(const std::vector<int>& frames, int max_points) const;
 
   // Returns the tracks of the points or lines that at least two views show: for each, the features
   // of the frames that show it. The reference is view 0.

@@ -115,19 +115,19 @@ void MarkGood(std::span<const RayMatch> matches, TwoViewSolution& solution) {
   solution.parallax_deg = MedianParallax(good, pose.rotation) / kDegree;
 }
 
-InitializationWait Verdict(std::span<const MotionVote> votes,
-                           std::size_t inliers,
-                           double parallax_deg) {
+InitializationStatus Verdict(std::span<const MotionVote> votes,
+                             std::size_t inliers,
+                             double parallax_deg) {
   const std::size_t best = votes.front().good;
   const double required =
       std::max(static_cast<double>(kMinPoints), kMinGoodPart * static_cast<double>(inliers));
-  if (parallax_deg < kMinParallaxDeg) return InitializationWait::kTooLittleParallax;
+  if (parallax_deg < kMinParallaxDeg) return InitializationStatus::kTooLittleParallax;
   if (votes.size() > 1 &&
       static_cast<double>(votes[1].good) > kRivalPart * static_cast<double>(best)) {
-    return InitializationWait::kAmbiguous;
+    return InitializationStatus::kAmbiguous;
   }
-  if (static_cast<double>(best) < required) return InitializationWait::kInaccurate;
-  return InitializationWait::kNone;
+  if (static_cast<double>(best) < required) return InitializationStatus::kInaccurate;
+  return InitializationStatus::kNone;
 }
 
 }  // namespace
@@ -157,7 +157,7 @@ double TransferScore(const Eigen::Matrix3d& homography, std::span<const RayMatch
 
 TwoViewSolution SolveTwoViews(std::span<const RayMatch> matches, Rng& rng) {
   TwoViewSolution solution;
-  solution.wait = InitializationWait::kTooFewMatches;
+  solution.wait = InitializationStatus::kTooFewMatches;
   if (matches.size() < kMinMatches) return solution;
   const EightPointProblem essentials(matches);
   const HomographyProblem homographies(matches);
@@ -173,7 +173,7 @@ TwoViewSolution SolveTwoViews(std::span<const RayMatch> matches, Rng& rng) {
   const std::vector<RayMatch> inliers = Inliers(model, solution.model, matches);
   const std::vector<MotionVote> votes = Vote(MotionsOf(model, solution.model), inliers);
   if (votes.empty()) {  // the homography is a mere turn
-    solution.wait = InitializationWait::kTooLittleParallax;
+    solution.wait = InitializationStatus::kTooLittleParallax;
     return solution;
   }
   solution.b_from_a = votes.front().pose;
@@ -183,7 +183,7 @@ TwoViewSolution SolveTwoViews(std::span<const RayMatch> matches, Rng& rng) {
 }
 
 InitializationResult TwoViewInitializer::Add(const InitializationFrame& frame) {
-  using enum InitializationWait;
+  using enum InitializationStatus;
   const Features& features = frame.indexed->features;
   if (features.points.size() < kMinFeatures) {
     Reset();
@@ -229,11 +229,11 @@ void TwoViewInitializer::Reset() {
 }
 
 InitializationResult TwoViewImagesInitializer::Add(const InitializationFrame& frame) {
-  using enum InitializationWait;
+  using enum InitializationStatus;
   InitializationResult result = window_.Offer(frame, 1);
   if (result.wait != kNone) return result;
   const std::vector<int> newest{window_.size() - 1};
-  const Tracks tracks = window_.CollectTracks(newest, std::numeric_limits<int>::max());
+  const FeatureTracks tracks = window_.CollectTracks(newest, std::numeric_limits<int>::max());
   Rng rng(seed_, "two_view", static_cast<std::uint64_t>(frame.id.value));
   ++counts_.aligned_images;
   ++counts_.two_view_solutions;

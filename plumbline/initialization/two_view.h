@@ -27,7 +27,7 @@ double TransferScore(const Eigen::Matrix3d& homography, std::span<const RayMatch
 enum class TwoViewModel { kEssential, kHomography };
 
 struct TwoViewSolution {
-  InitializationWait wait = InitializationWait::kNone;  // kNone: the pose can be used
+  InitializationStatus wait = InitializationStatus::kNone;  // kNone: the pose can be used
   TwoViewModel model = TwoViewModel::kEssential;
   // Pose with |translation| = 1. It is that of the best motion, even where the solution is not
   // good.
@@ -71,15 +71,15 @@ class TwoViewInitializer : public Initializer {
 };
 
 // The conventional decision (SolveTwoViews) on the matches of rank1: points are followed and
-// aligned on the images (FrameWindow), and the reference stays until matches with it die out. The
-// comparison with rank1 shows what factorization and the decision of several frames bring, the
-// comparison with two_view what the matches bring.
+// aligned on the images (InitializationWindow), and the reference stays until matches with it die
+// out. The comparison with rank1 shows what factorization and the decision of several frames bring,
+// the comparison with two_view what the matches bring.
 //
 // Each frame is tried by itself, with all points of the reference that it shows. Needs the images
 // of all frames (BugError otherwise).
 class TwoViewImagesInitializer : public Initializer {
  public:
-  TwoViewImagesInitializer(const ImagingModel& imaging,
+  TwoViewImagesInitializer(const CameraAndPyramid& imaging,
                            std::uint64_t seed,
                            HelperThread* helper = nullptr)
       : camera_(imaging.camera), seed_(seed), window_(imaging, InitialMatching::kImages, helper) {}
@@ -90,7 +90,7 @@ class TwoViewImagesInitializer : public Initializer {
  private:
   RectifiedCamera camera_;
   std::uint64_t seed_;
-  FrameWindow window_;
+  InitializationWindow window_;
 };
 
 }  // namespace plumbline

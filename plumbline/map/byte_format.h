@@ -4,12 +4,12 @@
 
 #include "plumbline/features/byte_format.h"
 #include "plumbline/map/frame.h"
+#include "plumbline/map/keyframe_pose.h"
 #include "plumbline/map/landmarks.h"
 #include "plumbline/map/map_record.h"
-#include "plumbline/map/placement.h"
+#include "plumbline/map/recent_landmarks.h"
 #include "plumbline/map/saved_atlas.h"
 #include "plumbline/map/session.h"
-#include "plumbline/map/young_landmarks.h"
 
 #include <bit>
 #include <cstddef>
@@ -23,13 +23,13 @@ namespace plumbline {
 
 // Transfer (base/byte_format.h) of maps and their parts.
 
-template <class Archive, Like<Placement> T>
+template <class Archive, Like<KeyFramePose> T>
 void Transfer(Archive& archive, T& place) {
-  TransferAll(archive, place.cam_from_world, place.unit);
+  TransferAll(archive, place.cam_from_world, place.scale);
 }
 template <class Archive, Like<RelativePose> T>
 void Transfer(Archive& archive, T& relative) {
-  TransferAll(archive, relative.cam_from_keyframe, relative.unit);
+  TransferAll(archive, relative.cam_from_keyframe, relative.scale);
 }
 template <class Archive, Like<Uuid> T>
 void Transfer(Archive& archive, T& uuid) {
@@ -39,13 +39,13 @@ template <class Archive, Like<Session> T>
 void Transfer(Archive& archive, T& s) {
   TransferAll(archive, s.uuid, s.program, s.data, s.first_stamp_ns, s.last_stamp_ns);
 }
-template <class Archive, Like<YoungLandmarks> T>
+template <class Archive, Like<RecentLandmarks> T>
 void Transfer(Archive& archive, T& young) {
   TransferAll(archive, young.points, young.lines);
 }
 template <class Archive, Like<RemovedKeyFrame> T>
 void Transfer(Archive& archive, T& k) {
-  TransferAll(archive, k.parent, k.from_parent, k.unit, k.number);
+  TransferAll(archive, k.parent, k.from_parent, k.scale, k.number);
 }
 template <class Archive, Like<MapRecord> T>
 void Transfer(Archive& archive, T& r) {
@@ -81,7 +81,7 @@ void TransferPlace(Archive& archive, T& frame) {
 // observations of the landmarks.
 template <class Archive, Like<KeyFrame> T>
 void TransferPlace(Archive& archive, T& k) {
-  TransferAll(archive, k.id, k.parent, k.number, k.unit, k.session);
+  TransferAll(archive, k.id, k.parent, k.number, k.scale, k.session);
   TransferPlace(archive, k.frame);
 }
 

@@ -34,9 +34,10 @@ struct SetPose {
 };
 // Moves keyframes, each by a similarity of its own (new from old world), and all that belongs to
 // them. A landmark moves with the newest keyframe that shows it. Removed keyframes, and frames
-// whose pose is kept relative to a keyframe, follow by themselves (Placement). Keyframes that are
-// not named stay. Where keyframes that see the same landmarks move alike, no reprojection changes.
-// Scales other than 1 are for maps of a single camera, since disparities do not change with them.
+// whose pose is kept relative to a keyframe, follow by themselves (KeyFramePose). Keyframes that
+// are not named stay. Where keyframes that see the same landmarks move alike, no reprojection
+// changes. Scales other than 1 are for maps of a single camera, since disparities do not change
+// with them.
 struct MoveKeyFrames {
   std::map<KeyFrameId, Similarity3> new_from_old;
 };
@@ -46,14 +47,14 @@ struct CorrectFeatures {
   FeatureCorrection correction;
   // Features of keyframes of the map that have the correction already (WithCorrection). Those of
   // other keyframes are computed when the edit is applied.
-  std::vector<std::pair<KeyFrameId, std::shared_ptr<const IndexedFeatures>>> ready = {};
+  std::vector<std::pair<KeyFrameId, std::shared_ptr<const FrameFeatures>>> ready = {};
 };
 
 // Replaces the features of a keyframe by the same features in the same order, of which some are at
 // places that are known better. The map's correction is applied to them.
 struct MoveFeatures {
   KeyFrameId id;
-  std::shared_ptr<const IndexedFeatures> indexed;
+  std::shared_ptr<const FrameFeatures> indexed;
 };
 
 // Adds a landmark with its observations.

@@ -16,10 +16,10 @@ std::vector<Eigen::Vector2d> PositionsOf(const Features& features) {
 
 }  // namespace
 
-std::shared_ptr<const IndexedFeatures> WithCorrection(
-    const std::shared_ptr<const IndexedFeatures>& indexed, const FeatureCorrection& correction) {
+std::shared_ptr<const FrameFeatures> WithCorrection(
+    const std::shared_ptr<const FrameFeatures>& indexed, const FeatureCorrection& correction) {
   if (indexed->correction == correction) return indexed;
-  auto corrected = std::make_shared<IndexedFeatures>(*indexed);
+  auto corrected = std::make_shared<FrameFeatures>(*indexed);
   Correct(indexed->correction, correction, corrected->features);
   if (!(indexed->correction.lens == correction.lens)) {
     corrected->point_grid = indexed->point_grid.WithPositions(PositionsOf(corrected->features));
@@ -28,11 +28,11 @@ std::shared_ptr<const IndexedFeatures> WithCorrection(
   return corrected;
 }
 
-std::shared_ptr<const IndexedFeatures> WithRightLines(
-    const std::shared_ptr<const IndexedFeatures>& indexed,
+std::shared_ptr<const FrameFeatures> WithRightLines(
+    const std::shared_ptr<const FrameFeatures>& indexed,
     std::vector<std::optional<RightLine>> measured) {
   if (measured.empty()) return indexed;
-  auto whole = std::make_shared<IndexedFeatures>(*indexed);
+  auto whole = std::make_shared<FrameFeatures>(*indexed);
   Features lines;
   lines.line_right = std::move(measured);
   if (!(indexed->correction == FeatureCorrection())) Correct({}, indexed->correction, lines);
@@ -40,16 +40,16 @@ std::shared_ptr<const IndexedFeatures> WithRightLines(
   return whole;
 }
 
-std::shared_ptr<const IndexedFeatures> IndexFeatures(const RectifiedCamera& camera,
-                                                     Features measured,
-                                                     const FeatureCorrection& correction) {
+std::shared_ptr<const FrameFeatures> IndexFeatures(const RectifiedCamera& camera,
+                                                   Features measured,
+                                                   const FeatureCorrection& correction) {
   if (!(correction == FeatureCorrection())) Correct({}, correction, measured);
   PointGrid grid(PositionsOf(measured), camera.width, camera.height);
-  return std::make_shared<const IndexedFeatures>(
-      IndexedFeatures{std::move(measured), std::move(grid), correction});
+  return std::make_shared<const FrameFeatures>(
+      FrameFeatures{std::move(measured), std::move(grid), correction});
 }
 
-Features MeasuredFeatures(const IndexedFeatures& indexed) {
+Features MeasuredFeatures(const FrameFeatures& indexed) {
   Features measured = indexed.features;
   if (!(indexed.correction == FeatureCorrection())) Correct(indexed.correction, {}, measured);
   return measured;

@@ -18,30 +18,30 @@ namespace plumbline {
 
 // The features of one frame with their index by image cell. They are never changed once made, so
 // that frames, keyframes and snapshots share them.
-struct IndexedFeatures {
+struct FrameFeatures {
   Features features;
   PointGrid point_grid;
   FeatureCorrection correction = {};  // the correction that the features have
 };
 
 // Returns the features with another correction; the same object where they have it already.
-std::shared_ptr<const IndexedFeatures> WithCorrection(
-    const std::shared_ptr<const IndexedFeatures>& indexed, const FeatureCorrection& correction);
+std::shared_ptr<const FrameFeatures> WithCorrection(
+    const std::shared_ptr<const FrameFeatures>& indexed, const FeatureCorrection& correction);
 
 // Returns the features with the places of their lines in the right image, as measured
 // (FindRightLines).
-std::shared_ptr<const IndexedFeatures> WithRightLines(
-    const std::shared_ptr<const IndexedFeatures>& indexed,
+std::shared_ptr<const FrameFeatures> WithRightLines(
+    const std::shared_ptr<const FrameFeatures>& indexed,
     std::vector<std::optional<RightLine>> measured);
 
 // Returns measured features with a correction and their index, for images of the camera's size.
-std::shared_ptr<const IndexedFeatures> IndexFeatures(const RectifiedCamera& camera,
-                                                     Features measured,
-                                                     const FeatureCorrection& correction = {});
+std::shared_ptr<const FrameFeatures> IndexFeatures(const RectifiedCamera& camera,
+                                                   Features measured,
+                                                   const FeatureCorrection& correction = {});
 
 // Returns the features as they were measured, without the correction. The result is exact for what
 // IndexFeatures and WithCorrection made of features in single precision (RoundToSinglePrecision).
-Features MeasuredFeatures(const IndexedFeatures& indexed);
+Features MeasuredFeatures(const FrameFeatures& indexed);
 
 // A frame with a pose and its matches: the landmark that each feature shows, an invalid id for
 // none.
@@ -49,7 +49,7 @@ struct Frame {
   FrameId id;
   std::int64_t stamp_ns = 0;
   Rigid3 cam_from_world;
-  std::shared_ptr<const IndexedFeatures> indexed;
+  std::shared_ptr<const FrameFeatures> indexed;
   std::vector<PointId> points;
   std::vector<LineId> lines;
 
@@ -64,7 +64,7 @@ struct KeyFrame {
   Frame frame;
   // The present length of what had the length 1 around the keyframe when it came into the map: the
   // product of the scales of all motions it took part in (edit::MoveKeyFrames).
-  double unit = 1;
+  double scale = 1;
   // Number of keyframes that the map had taken in before; the map sets it.
   std::int64_t number = 0;
   SessionId session{0};  // session of its frame

@@ -55,7 +55,7 @@ KeyFrameId Map::ParentOf(KeyFrameId id) const {
   return removed == nullptr ? KeyFrameId{} : removed->parent;
 }
 
-Placement Map::PlaceOf(KeyFrameId id) const {
+KeyFramePose Map::PlaceOf(KeyFrameId id) const {
   // Goes up to a keyframe that is in the map: one step, except in maps of older files.
   std::vector<const RemovedKeyFrame*> chain;
   while (const RemovedKeyFrame* removed = removed_keyframes_.Find(id)) {
@@ -64,14 +64,14 @@ Placement Map::PlaceOf(KeyFrameId id) const {
   }
   const KeyFrame* keyframe = Find(id);
   PLUMBLINE_CHECK(keyframe != nullptr, "place of a keyframe that never was in the map");
-  double unit = keyframe->unit;
+  double scale = keyframe->scale;
   Rigid3 cam_from_ancestor;
   for (auto removed = chain.rbegin(); removed != chain.rend(); ++removed) {
     const RelativePose& relative = (*removed)->from_parent;
-    cam_from_ancestor = InUnit(relative, unit) * cam_from_ancestor;
-    unit *= (*removed)->unit / relative.unit;
+    cam_from_ancestor = Rescaled(relative, scale) * cam_from_ancestor;
+    scale *= (*removed)->scale / relative.scale;
   }
-  return {cam_from_ancestor * keyframe->frame.cam_from_world, unit};
+  return {cam_from_ancestor * keyframe->frame.cam_from_world, scale};
 }
 
 void Map::ReserveIds(PointId next_point, LineId next_line) {
@@ -226,10 +226,10 @@ struct MapChanger {
       PLUMBLINE_CHECK(map.removed_keyframes_.contains(parent_id), "a parent that never was");
       parent_id = map.ParentOf(parent_id);
     }
-    const Placement parent = map.PlaceOf(parent_id);
+    const KeyFramePose parent = map.PlaceOf(parent_id);
     const Rigid3 cam_from_parent = keyframe->frame.cam_from_world * Inverse(parent.cam_from_world);
     map.removed_keyframes_.Add(
-        change.id, {parent_id, {cam_from_parent, parent.unit}, keyframe->unit, keyframe->number});
+        change.id, {parent_id, {cam_from_parent, parent.scale}, keyframe->scale, keyframe->number});
     const Frame frame = keyframe->frame;
     for (const PointId id : frame.points) Unobserve(id, change.id);
     for (const LineId id : frame.lines) Unobserve(id, change.id);

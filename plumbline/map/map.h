@@ -5,10 +5,10 @@
 #include "plumbline/map/edit.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/id_table.h"
+#include "plumbline/map/keyframe_pose.h"
 #include "plumbline/map/landmarks.h"
 #include "plumbline/map/map_identity.h"
 #include "plumbline/map/map_record.h"
-#include "plumbline/map/placement.h"
 #include "plumbline/map/removed_keyframes.h"
 
 #include <cstddef>
@@ -54,7 +54,7 @@ class Map {
   LineId Current(LineId id) const;
 
   // Returns the place of a keyframe that is or was in the map: a removed one moves with its parent.
-  Placement PlaceOf(KeyFrameId id) const;
+  KeyFramePose PlaceOf(KeyFrameId id) const;
   Rigid3 PoseOf(KeyFrameId id) const { return PlaceOf(id).cam_from_world; }
   // Whether a keyframe is or was in the map.
   bool Knows(KeyFrameId id) const;

@@ -19,7 +19,7 @@ constexpr int kMaxOctave = 64;
 std::vector<PointId>& Matches(Frame& frame, PointId) { return frame.points; }
 std::vector<LineId>& Matches(Frame& frame, LineId) { return frame.lines; }
 
-bool IsUnit(double unit) { return std::isfinite(unit) && unit > 0; }
+bool IsScale(double scale) { return std::isfinite(scale) && scale > 0; }
 
 bool IsPlaced(const MapPoint& point) { return point.position.allFinite(); }
 bool IsPlaced(const MapLine& line) {
@@ -89,8 +89,8 @@ void MapBuilder::CheckRecord(const MapRecord& record) const {
     if (!IsInRange(removed.parent, record.next_keyframe)) {
       Fail("a removed keyframe beside one that never was");
     }
-    if (!IsPose(removed.from_parent.cam_from_keyframe) || !IsUnit(removed.from_parent.unit) ||
-        !IsUnit(removed.unit) || removed.number < 0 ||
+    if (!IsPose(removed.from_parent.cam_from_keyframe) || !IsScale(removed.from_parent.scale) ||
+        !IsScale(removed.scale) || removed.number < 0 ||
         removed.number >= record.keyframes_taken_in) {
       Fail("a removed keyframe without a valid place");
     }
@@ -119,7 +119,7 @@ void MapBuilder::Add(KeyFrame keyframe) {
     Fail("features of unequal counts");
   }
   if (!AreMeasured(f)) Fail("a feature without a position");
-  if (!IsPose(frame.cam_from_world) || !IsUnit(keyframe.unit)) {
+  if (!IsPose(frame.cam_from_world) || !IsScale(keyframe.scale)) {
     Fail("a keyframe without a valid pose");
   }
   if (keyframe.number < 0 || keyframe.number >= map_.keyframes_taken_in_) {

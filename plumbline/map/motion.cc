@@ -46,7 +46,7 @@ PluckerLine Transform(const Similarity3& s, const PluckerLine& line) {
 void Move(const Similarity3& new_from_old, KeyFrame& keyframe) {
   keyframe.frame.cam_from_world =
       Inverse(TransformPose(new_from_old, Inverse(keyframe.frame.cam_from_world)));
-  keyframe.unit *= new_from_old.scale;
+  keyframe.scale *= new_from_old.scale;
 }
 
 void Move(const Similarity3& new_from_old, PointModel& point) {

@@ -12,9 +12,9 @@ RemovedKeyFrame BesideParentOf(const RemovedKeyFrame& leaving, const RemovedKeyF
   RemovedKeyFrame moved = hanging;
   moved.parent = leaving.parent;
   moved.from_parent.cam_from_keyframe =
-      InUnit(hanging.from_parent, leaving.unit) * leaving.from_parent.cam_from_keyframe;
-  moved.from_parent.unit = leaving.from_parent.unit;
-  moved.unit = leaving.unit * hanging.unit / hanging.from_parent.unit;
+      Rescaled(hanging.from_parent, leaving.scale) * leaving.from_parent.cam_from_keyframe;
+  moved.from_parent.scale = leaving.from_parent.scale;
+  moved.scale = leaving.scale * hanging.scale / hanging.from_parent.scale;
   return moved;
 }
 

@@ -4,7 +4,7 @@
 
 #include "plumbline/base/ids.h"
 #include "plumbline/map/id_table.h"
-#include "plumbline/map/placement.h"
+#include "plumbline/map/keyframe_pose.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace plumbline {
 struct RemovedKeyFrame {
   KeyFrameId parent;
   RelativePose from_parent;
-  double unit = 1;  // its own unit when it left
+  double scale = 1;  // its own scale when it left
   std::int64_t number = 0;
 };
 

@@ -5,8 +5,8 @@
 #include "plumbline/features/stereo_evidence.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/map/atlas.h"
+#include "plumbline/map/recent_landmarks.h"
 #include "plumbline/map/session.h"
-#include "plumbline/map/young_landmarks.h"
 
 #include <cstdint>
 #include <map>
@@ -20,7 +20,7 @@ namespace plumbline {
 // What belongs to a map of an atlas beside the map itself.
 struct MapContext {
   Uuid uuid;
-  YoungLandmarks young;
+  RecentLandmarks young;
 };
 
 // What the maps of an atlas were made with, and what else a run needs to go on with them.

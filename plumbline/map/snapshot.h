@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/map/keyframe_pose.h"
 #include "plumbline/map/map.h"
-#include "plumbline/map/placement.h"
 
 #include <map>
 #include <memory>
@@ -32,7 +32,7 @@ struct MapSnapshot {
   std::map<KeyFrameId, Rigid3> cam_from_world;  // poses of the keyframes of the window
   // Places of the centre and of the centres of earlier snapshots. The tracker's last pose may refer
   // to one of these, even where the keyframe has left the map meanwhile.
-  std::map<KeyFrameId, Placement> places;
+  std::map<KeyFrameId, KeyFramePose> places;
   std::shared_ptr<const KeyFrame> reference;  // the centre, for matching by appearance
   std::vector<SnapshotPoint> points;          // sorted by id
   std::vector<SnapshotLine> lines;            // sorted by id

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/association/landmark_from_frame.h"
 #include "plumbline/mapping/landmark_creation.h"
+#include "plumbline/matching/landmark_from_frame.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -65,7 +65,7 @@ DepthLandmarks LandmarksFromDepth(const RectifiedCamera& camera,
 }
 
 MapEdit CreateFromDepth(const Map& map,
-                        const ImagingModel& imaging,
+                        const CameraAndPyramid& imaging,
                         KeyFrameId id,
                         const LandmarkCreationOptions& options) {
   const DepthLandmarks landmarks = LandmarksFromDepth(imaging.camera, map.Find(id)->frame, options);

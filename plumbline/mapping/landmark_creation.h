@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/line_options.h"
-#include "plumbline/association/projection_search.h"
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/options.h"
+#include "plumbline/matching/line_options.h"
+#include "plumbline/matching/projection_search.h"
 
 #include <cstddef>
 #include <utility>
@@ -28,7 +28,7 @@ DepthLandmarks LandmarksFromDepth(const RectifiedCamera& camera,
 // landmark whose depth is known well enough; where the keyframe shows few points with depth, also
 // of the best known of the other depths. Each landmark gets one observation.
 MapEdit CreateFromDepth(const Map& map,
-                        const ImagingModel& imaging,
+                        const CameraAndPyramid& imaging,
                         KeyFrameId id,
                         const LandmarkCreationOptions& options);
 
@@ -36,7 +36,7 @@ MapEdit CreateFromDepth(const Map& map,
 // descriptor along the epipolar line and triangulated. A point is kept where parallax, depth and
 // the reprojection in both keyframes (with disparity where measured) are good.
 MapEdit CreatePointsFromViews(const Map& map,
-                              const ImagingModel& imaging,
+                              const CameraAndPyramid& imaging,
                               KeyFrameId id,
                               const LandmarkCreationOptions& options);
 
@@ -46,7 +46,7 @@ MapEdit CreatePointsFromViews(const Map& map,
 // points of every view lie on the projected line (3 sigmas, TriangulateLine) and the interpretation
 // planes meet at a large enough angle.
 MapEdit CreateLinesFromViews(const Map& map,
-                             const ImagingModel& imaging,
+                             const CameraAndPyramid& imaging,
                              KeyFrameId id,
                              const LineOptions& lines = {});
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/lens_calibration.h"
 
-#include "plumbline/optimization/local_ba.h"
+#include "plumbline/optimization/bundle_adjustment.h"
 
 #include <array>
 #include <cmath>
@@ -126,7 +126,9 @@ void Correct(const LensCorrection& correction, BaProblem& problem) {
   }
 }
 
-LearnedLens LearnLens(const BaProblem& problem, double known_px, const StopCheck& stop) {
+RadialCalibration CalibrateRadialDistortion(const BaProblem& problem,
+                                            double known_px,
+                                            const StopCheck& stop) {
   // Steps between corrections, relative to the width of the image. With the first step all points
   // stay near where they were, which takes few iterations; the second leads to the places that a
   // large correction asks for.

@@ -17,8 +17,8 @@ namespace plumbline {
 // deviations alike.
 void Correct(const LensCorrection& correction, BaProblem& problem);
 
-// What LearnLens found.
-struct LearnedLens {
+// What CalibrateRadialDistortion found.
+struct RadialCalibration {
   LensCorrection correction;
   // Poses and points adjusted to that correction, by their index in the problem; empty where there
   // is no change.
@@ -46,6 +46,8 @@ struct LearnedLens {
 //   returns   the correction that is to be made in addition
 //   cost      that of three adjustments of the points alone, of up to ten where there may be a
 //             correction
-LearnedLens LearnLens(const BaProblem& problem, double known_px = 0, const StopCheck& stop = {});
+RadialCalibration CalibrateRadialDistortion(const BaProblem& problem,
+                                            double known_px = 0,
+                                            const StopCheck& stop = {});
 
 }  // namespace plumbline

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/line_interval.h"
 
-#include "plumbline/association/line_information.h"
 #include "plumbline/geometry/trimming.h"
+#include "plumbline/matching/line_information.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -17,7 +17,7 @@ constexpr std::size_t kViewsForTrimming = 4;
 }  // namespace
 
 edit::MoveLine RefitInterval(const Map& map,
-                             const ImagingModel& imaging,
+                             const CameraAndPyramid& imaging,
                              const std::map<KeyFrameId, Rigid3>& poses,
                              const MapLine& line,
                              const PluckerLine& moved) {

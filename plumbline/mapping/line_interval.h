@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/projection_search.h"
 #include "plumbline/map/map.h"
+#include "plumbline/matching/projection_search.h"
 
 #include <map>
 
@@ -15,7 +15,7 @@ namespace plumbline {
 // from all observations. The direction keeps its sense.
 //   poses  keyframe poses that differ from the map's
 edit::MoveLine RefitInterval(const Map& map,
-                             const ImagingModel& imaging,
+                             const CameraAndPyramid& imaging,
                              const std::map<KeyFrameId, Rigid3>& poses,
                              const MapLine& line,
                              const PluckerLine& moved);

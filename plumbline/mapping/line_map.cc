@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/line_map.h"
 
-#include "plumbline/association/line_information.h"
-#include "plumbline/association/measurements.h"
-#include "plumbline/mapping/line_support.h"
+#include "plumbline/mapping/line_observation_search.h"
+#include "plumbline/matching/line_information.h"
+#include "plumbline/matching/measurements.h"
 #include "plumbline/optimization/residuals.h"
 
 #include <algorithm>
@@ -140,7 +140,7 @@ Sightings FindSightings(const RectifiedCamera& camera,
 // Returns which share of the keyframes that have a part of a line in their image show it. Keyframes
 // further away than the furthest that shows it do not count: they are likely to stand behind a
 // wall.
-double FoundRatio(const ViewTree& views,
+double FoundRatio(const FrustumTree& views,
                   const RectifiedCamera& camera,
                   const Segment3& segment,
                   const Sightings& sightings) {
@@ -162,7 +162,7 @@ double FoundRatio(const ViewTree& views,
 }
 
 // Returns the pieces of a line that are good enough to be given out.
-std::vector<MappedLine> GoodPieces(const ViewTree& views,
+std::vector<MappedLine> GoodPieces(const FrustumTree& views,
                                    const RectifiedCamera& camera,
                                    const SupportedLine& line,
                                    const LineMapOptions& options) {
@@ -201,7 +201,7 @@ std::vector<const MapLine*> ByObservations(const Map& map) {
 }  // namespace
 
 std::vector<WellSeenLine> FindWellSeenLines(const Map& map,
-                                            const ImagingModel& imaging,
+                                            const CameraAndPyramid& imaging,
                                             const LineMapOptions& options,
                                             const StopCheck& stop) {
   LineSupportSearch search(map, imaging);
@@ -228,7 +228,7 @@ std::vector<Segment3> SegmentsOf(const std::vector<MappedLine>& lines) {
 }
 
 std::vector<MappedLine> MakeLineMap(const Map& map,
-                                    const ImagingModel& imaging,
+                                    const CameraAndPyramid& imaging,
                                     const LineMapOptions& options,
                                     const StopCheck& stop) {
   std::vector<MappedLine> lines;

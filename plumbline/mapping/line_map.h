@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/projection_search.h"
 #include "plumbline/base/stop_check.h"
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/line_map_options.h"
-#include "plumbline/mapping/line_support.h"
+#include "plumbline/mapping/line_observation_search.h"
 #include "plumbline/mapping/mapped_line.h"
+#include "plumbline/matching/projection_search.h"
 
 #include <vector>
 
@@ -37,13 +37,13 @@ struct WellSeenLine {
 //   result  in the order of the search: lines of the landmarks with most observations first
 //   cost    O(landmarks x keyframes that may have them in their image)
 std::vector<MappedLine> MakeLineMap(const Map& map,
-                                    const ImagingModel& imaging,
+                                    const CameraAndPyramid& imaging,
                                     const LineMapOptions& options,
                                     const StopCheck& stop = {});
 
 // Returns the same lines as MakeLineMap, each with the segments of which it was made.
 std::vector<WellSeenLine> FindWellSeenLines(const Map& map,
-                                            const ImagingModel& imaging,
+                                            const CameraAndPyramid& imaging,
                                             const LineMapOptions& options,
                                             const StopCheck& stop = {});
 

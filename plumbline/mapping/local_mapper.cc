@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/local_mapper.h"
 
-#include "plumbline/association/fusion.h"
 #include "plumbline/map/covisibility.h"
-#include "plumbline/mapping/ba_window.h"
 #include "plumbline/mapping/landmark_creation.h"
+#include "plumbline/mapping/local_ba_window.h"
 #include "plumbline/mapping/outlier_removal.h"
-#include "plumbline/mapping/unit_of_length.h"
+#include "plumbline/mapping/scale_of_map.h"
 #include "plumbline/mapping/whole_map_adjustment.h"
-#include "plumbline/optimization/pose_sigma.h"
+#include "plumbline/matching/fusion.h"
+#include "plumbline/optimization/pose_uncertainty.h"
 
 #include <algorithm>
 #include <chrono>
@@ -82,7 +82,7 @@ void RefreshChanged(const std::vector<ShownLandmark<LandmarkId>>& before,
 
 }  // namespace
 
-LocalMapper::LocalMapper(const ImagingModel& imaging,
+LocalMapper::LocalMapper(const CameraAndPyramid& imaging,
                          const LineOptions& lines,
                          const MappingOptions& options)
     : imaging_(imaging),
@@ -99,7 +99,7 @@ std::vector<MappingStep> LocalMapper::Add(Map& map,
   std::vector<MappingStep> times;
   ShownLandmarks refreshed;
   Map::Undo undo(map);
-  Timed("take_in", times, [&] { refreshed = TakeIn(map, keyframe, scores); });
+  Timed("take_in", times, [&] { refreshed = InsertKeyFrame(map, keyframe, scores); });
   Timed("create", times, [&] { CreateLandmarks(map, id); });
   Timed("fuse", times, [&] { Fuse(map, id, refreshed); });
   if (pyramid != nullptr) Timed("align", times, [&] { AlignPoints(map, id, *pyramid); });
@@ -123,9 +123,9 @@ void LocalMapper::FollowJoins(const Atlas& atlas) {
       ++of_map;
       continue;
     }
-    const YoungLandmarks gone = std::move(of_map->second);
+    const RecentLandmarks gone = std::move(of_map->second);
     of_map = young_.erase(of_map);
-    YoungLandmarks& kept = young_[current];
+    RecentLandmarks& kept = young_[current];
     kept.points.insert(kept.points.end(), gone.points.begin(), gone.points.end());
     kept.lines.insert(kept.lines.end(), gone.lines.begin(), gone.lines.end());
   }
@@ -136,7 +136,7 @@ void LocalMapper::StartNewMap(Map& map) {
   map.Apply({edit::CorrectFeatures{{calibrator_.Estimate()}}});
 }
 
-Correction LocalMapper::ToLens(const Map& map, const LensCorrection& lens) const {
+MapCorrection LocalMapper::ToLens(const Map& map, const LensCorrection& lens) const {
   return BringToLens(map, imaging_, lines_.weights(), options_, lens);
 }
 
@@ -149,14 +149,16 @@ std::vector<MappingStep> LocalMapper::Start(Map& map, const MapEdit& edit, KeyFr
   std::vector<MappingStep> times;
   Timed("take_in", times, [&] {
     map.Apply(edit);
-    Watch(map.id(), edit);
+    AddToProbation(map.id(), edit);
   });
   Timed("adjust", times, [&] { Adjust(map, newest); });
   Timed("create", times, [&] { CreateLandmarks(map, newest); });
   return times;
 }
 
-std::vector<MappingStep> LocalMapper::Tie(Map& map, KeyFrameId newest, KeyFrameId older) {
+std::vector<MappingStep> LocalMapper::AdjustLoopNeighbourhood(Map& map,
+                                                              KeyFrameId newest,
+                                                              KeyFrameId older) {
   std::vector<MappingStep> times;
   Timed("tie", times, [&] {
     for (const KeyFrameId id : {older, newest}) {
@@ -176,7 +178,7 @@ std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) co
   MappingOptions options = options_;
   for (int round = 0; round < kRounds; ++round) {
     Timed("finish", times, [&] {
-      map.Apply(Rebased(AdjustWholeMap(map, imaging_, lines_, options, stop), map));
+      map.Apply(RebaseCorrection(AdjustWholeMap(map, imaging_, lines_, options, stop), map));
     });
     options.lens_calibration = false;  // the first round has learned the lens
   }
@@ -186,9 +188,9 @@ std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) co
 
 // Puts a keyframe into the map and updates scores and appearance of the landmarks that it shows.
 // Returns these landmarks.
-LocalMapper::ShownLandmarks LocalMapper::TakeIn(Map& map,
-                                                const KeyFrame& keyframe,
-                                                const TrackingScores& scores) {
+LocalMapper::ShownLandmarks LocalMapper::InsertKeyFrame(Map& map,
+                                                        const KeyFrame& keyframe,
+                                                        const TrackingScores& scores) {
   MapEdit edit{edit::AddKeyFrame{keyframe}};
   for (const auto& [id, score] : scores.points) {
     edit.push_back(edit::ScorePoint{id, score.visible, score.found});
@@ -220,7 +222,7 @@ LocalMapper::ShownLandmarks LocalMapper::Refresh(Map& map,
 void LocalMapper::CreateLandmarks(Map& map, KeyFrameId id) {
   const auto create = [&](const MapEdit& edit) {
     map.Apply(edit);
-    Watch(map.id(), edit);
+    AddToProbation(map.id(), edit);
   };
   create(CreateFromDepth(map, imaging_, id, options_.creation));
   create(CreatePointsFromViews(map, imaging_, id, options_.creation));
@@ -228,8 +230,8 @@ void LocalMapper::CreateLandmarks(Map& map, KeyFrameId id) {
 }
 
 // Adds the landmarks that an edit creates to the young ones of the map, which are on trial.
-void LocalMapper::Watch(MapId map, const MapEdit& edit) {
-  YoungLandmarks& young = young_[map];
+void LocalMapper::AddToProbation(MapId map, const MapEdit& edit) {
+  RecentLandmarks& young = young_[map];
   for (const MapChange& change : edit) {
     if (const auto* point = std::get_if<edit::AddPoint>(&change)) {
       young.points.push_back(point->point.id);
@@ -255,14 +257,14 @@ void LocalMapper::AlignPoints(Map& map, KeyFrameId id, const ImagePyramid& pyram
 }
 
 void LocalMapper::Adjust(Map& map, KeyFrameId id) {
-  BaWindow window = MakeBaWindow(map, imaging_, id, lines_, options_.window);
+  LocalBaWindow window = MakeLocalBaWindow(map, imaging_, id, lines_, options_.window);
   BaProblem& problem = window.problem;
   const std::optional<BaResult> result =
-      SolveInOnePiece(problem,
-                      options_.ba,
-                      lines_.method.adjust_window,
-                      options_.window.local_limits(),
-                      [&](BaResult& solution) { KeepUnitOfTheOldest(problem, solution); });
+      SolveWithPoseLimits(problem,
+                          options_.ba,
+                          lines_.method.adjust_window,
+                          options_.window.local_limits(),
+                          [&](BaResult& solution) { FixScaleToOldestKeyFrame(problem, solution); });
   if (!result) return;
   adjusted_lines_.count += problem.lines.size();
   adjusted_lines_.bytes += result->line_bytes;

@@ -2,19 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/line_options.h"
-#include "plumbline/association/projection_search.h"
 #include "plumbline/base/stop_check.h"
 #include "plumbline/map/atlas.h"
 #include "plumbline/map/map.h"
-#include "plumbline/map/young_landmarks.h"
+#include "plumbline/map/recent_landmarks.h"
 #include "plumbline/mapping/adjusted_lines.h"
-#include "plumbline/mapping/correction.h"
-#include "plumbline/mapping/landmark_cleanup.h"
+#include "plumbline/mapping/landmark_culling.h"
+#include "plumbline/mapping/map_correction.h"
 #include "plumbline/mapping/options.h"
 #include "plumbline/mapping/point_alignment.h"
 #include "plumbline/mapping/stereo_calibration.h"
 #include "plumbline/mapping/stereo_change.h"
+#include "plumbline/matching/line_options.h"
+#include "plumbline/matching/projection_search.h"
 
 #include <cstddef>
 #include <deque>
@@ -45,7 +45,9 @@ struct ShownLandmark {
 // Each step reads the map and returns a MapEdit, which is applied here.
 class LocalMapper {
  public:
-  LocalMapper(const ImagingModel& imaging, const LineOptions& lines, const MappingOptions& options);
+  LocalMapper(const CameraAndPyramid& imaging,
+              const LineOptions& lines,
+              const MappingOptions& options);
 
   // Sets the options for all that is done from now on.
   void SetOptions(const MappingOptions& options) { options_ = options; }
@@ -67,7 +69,7 @@ class LocalMapper {
   // Ties two keyframes that were far apart in the map and were found to see the same place. The
   // landmarks that both show must be fused already. More of them are searched around both
   // keyframes, and the surroundings of both are adjusted. Returns the time of each step, in order.
-  std::vector<MappingStep> Tie(Map& map, KeyFrameId newest, KeyFrameId older);
+  std::vector<MappingStep> AdjustLoopNeighbourhood(Map& map, KeyFrameId newest, KeyFrameId older);
 
   // Adjusts the whole of a map to which nothing will be added, twice (AdjustWholeMap), with the
   // stereo correction that it was about to get, and removes what does not fit then
@@ -78,7 +80,7 @@ class LocalMapper {
   // Gives a new, empty map what was learned about a pair of cameras.
   void StartNewMap(Map& map);
   // Returns what adjusts a map of a single camera to the lens that another map has learned.
-  Correction ToLens(const Map& map, const LensCorrection& lens) const;
+  MapCorrection ToLens(const Map& map, const LensCorrection& lens) const;
   // Tells that keyframes of another map are taken in from now on.
   void GoOnInAnotherMap();
   // Follows maps of the atlas that were joined since the last call; to be called after a join.
@@ -89,7 +91,7 @@ class LocalMapper {
 
   // What the mapper knows about its maps beside them, as map files keep it (AtlasContext).
   struct State {
-    std::map<MapId, YoungLandmarks> young;
+    std::map<MapId, RecentLandmarks> young;
     StereoEvidence stereo_evidence;
   };
   State state() const { return {young_, calibrator_.evidence()}; }
@@ -102,19 +104,19 @@ class LocalMapper {
     std::vector<ShownLandmark<LineId>> lines;
   };
 
-  ShownLandmarks TakeIn(Map& map, const KeyFrame& keyframe, const TrackingScores& scores);
+  ShownLandmarks InsertKeyFrame(Map& map, const KeyFrame& keyframe, const TrackingScores& scores);
   static ShownLandmarks Refresh(Map& map, KeyFrameId id, const ShownLandmarks& before);
   void CreateLandmarks(Map& map, KeyFrameId id);
-  void Watch(MapId map, const MapEdit& edit);
+  void AddToProbation(MapId map, const MapEdit& edit);
   void Fuse(Map& map, KeyFrameId id, const ShownLandmarks& refreshed) const;
   void AlignPoints(Map& map, KeyFrameId id, const ImagePyramid& pyramid);
   void Adjust(Map& map, KeyFrameId id);
   void CalibrateStereo(Map& map, KeyFrameId id);
 
-  ImagingModel imaging_;
+  CameraAndPyramid imaging_;
   LineOptions lines_;
   MappingOptions options_;
-  std::map<MapId, YoungLandmarks> young_;
+  std::map<MapId, RecentLandmarks> young_;
   PointAligner point_aligner_;
   StereoCalibrator calibrator_;
   StereoChange stereo_change_;

@@ -5,7 +5,7 @@
 namespace plumbline {
 
 MapProblemBuilder::MapProblemBuilder(const Map& map,
-                                     const ImagingModel& imaging,
+                                     const CameraAndPyramid& imaging,
                                      const LineWeights& weights,
                                      KeyFrameId origin,
                                      MapProblem& out)

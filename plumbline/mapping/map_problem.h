@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/measurements.h"
-#include "plumbline/association/projection_search.h"
 #include "plumbline/map/map.h"
-#include "plumbline/optimization/local_ba.h"
+#include "plumbline/matching/measurements.h"
+#include "plumbline/matching/projection_search.h"
+#include "plumbline/optimization/bundle_adjustment.h"
 #include "plumbline/optimization/problem.h"
 
 #include <cstddef>
@@ -35,7 +35,7 @@ class MapProblemBuilder {
   // The world of the problem is the camera of `origin`. `out` must be empty; `map` and `out` must
   // outlive the builder.
   MapProblemBuilder(const Map& map,
-                    const ImagingModel& imaging,
+                    const CameraAndPyramid& imaging,
                     const LineWeights& weights,
                     KeyFrameId origin,
                     MapProblem& out);

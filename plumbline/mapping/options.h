@@ -4,8 +4,8 @@
 
 #include "plumbline/base/options.h"
 #include "plumbline/mapping/line_map_options.h"
-#include "plumbline/optimization/local_ba.h"
-#include "plumbline/optimization/pose_sigma.h"
+#include "plumbline/optimization/bundle_adjustment.h"
+#include "plumbline/optimization/pose_uncertainty.h"
 
 #include <array>
 #include <type_traits>
@@ -62,7 +62,7 @@ void VisitFields(Visitor&& visit, CleanupOptions& o) {
         Range{0.1, 1});
 }
 
-struct BaWindowOptions {
+struct LocalBaWindowOptions {
   // Keyframes that are adjusted, closest in covisibility.
   int free_keyframes = 12;
   // Most fixed keyframes, which see the same landmarks and hold the window.
@@ -71,7 +71,7 @@ struct BaWindowOptions {
   double min_line_plane_angle_deg = 10;
   // Deviation of the ends, relative to their depth, up to which they are known well.
   double max_line_relative_sigma = 0.05;
-  // A keyframe is adjusted only if its pose is known to this (PoseSigma).
+  // A keyframe is adjusted only if its pose is known to this (PoseUncertainty).
   double max_pose_sigma = 0.01;
   // Largest correction of a keyframe against the one before, in one window.
   double max_correction = 0.03;
@@ -84,7 +84,7 @@ struct BaWindowOptions {
 };
 
 template <class Visitor>
-void VisitFields(Visitor&& visit, BaWindowOptions& o) {
+void VisitFields(Visitor&& visit, LocalBaWindowOptions& o) {
   visit("free_keyframes", o.free_keyframes, "keyframes adjusted together", Range{1, 200});
   visit("fixed_keyframes", o.fixed_keyframes, "keyframes that hold the window", Range{0, 1000});
   visit("min_line_plane_angle_deg",
@@ -116,7 +116,7 @@ struct MappingOptions {
   int fusion_neighbours = 10;
   LandmarkCreationOptions creation;
   CleanupOptions cleanup;
-  BaWindowOptions window;
+  LocalBaWindowOptions window;
   LocalBaOptions ba{.function_tolerance = 1e-3};  // 1e-4 takes 1.2 times the time and is no better
   bool stereo_calibration = true;
   bool lens_calibration = true;

@@ -3,7 +3,7 @@
 #include "plumbline/mapping/outlier_removal.h"
 
 #include "plumbline/mapping/line_interval.h"
-#include "plumbline/optimization/local_ba.h"
+#include "plumbline/optimization/bundle_adjustment.h"
 #include "plumbline/optimization/residuals.h"
 
 #include <cstddef>
@@ -21,7 +21,7 @@ constexpr std::size_t kFewestViews = 3;
 // Holds landmarks against the keyframes that show them, at the poses of the map.
 class OutlierSearch {
  public:
-  OutlierSearch(const Map& map, const ImagingModel& imaging, const LineWeights& weights)
+  OutlierSearch(const Map& map, const CameraAndPyramid& imaging, const LineWeights& weights)
       : map_(map), imaging_(imaging), weights_(weights) {}
 
   // Adds the changes of a landmark to the edit.
@@ -150,13 +150,15 @@ class OutlierSearch {
   }
 
   const Map& map_;
-  const ImagingModel& imaging_;
+  const CameraAndPyramid& imaging_;
   LineWeights weights_;
 };
 
 }  // namespace
 
-MapEdit RemoveOutliers(const Map& map, const ImagingModel& imaging, const LineWeights& weights) {
+MapEdit RemoveOutliers(const Map& map,
+                       const CameraAndPyramid& imaging,
+                       const LineWeights& weights) {
   const OutlierSearch search(map, imaging, weights);
   MapEdit edit;
   for (const auto& [id, point] : map.points()) {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/measurements.h"
-#include "plumbline/association/projection_search.h"
 #include "plumbline/map/map.h"
+#include "plumbline/matching/measurements.h"
+#include "plumbline/matching/projection_search.h"
 
 namespace plumbline {
 
@@ -21,6 +21,6 @@ namespace plumbline {
 //
 // Returns the change of the map. Cost: one residual for each observation, and a small adjustment
 // for each landmark that has an outlier.
-MapEdit RemoveOutliers(const Map& map, const ImagingModel& imaging, const LineWeights& weights);
+MapEdit RemoveOutliers(const Map& map, const CameraAndPyramid& imaging, const LineWeights& weights);
 
 }  // namespace plumbline

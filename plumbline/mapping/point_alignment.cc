@@ -79,9 +79,9 @@ std::optional<ImagePatch> PatchOf(const KeyFramePatches& patches, std::size_t fe
 
 }  // namespace
 
-std::shared_ptr<const IndexedFeatures> PointAligner::Align(const Map& map,
-                                                           KeyFrameId id,
-                                                           const ImagePyramid& pyramid) {
+std::shared_ptr<const FrameFeatures> PointAligner::Align(const Map& map,
+                                                         KeyFrameId id,
+                                                         const ImagePyramid& pyramid) {
   const Frame& frame = map.Find(id)->frame;
   Features features = MeasuredFeatures(*frame.indexed);
   bool moved = false;

@@ -56,9 +56,9 @@ class PointAligner {
   // keyframe. `pyramid` is that of its rectified left image with the given scale of octaves
   // (BuildOrbPyramid). Deviations stay as they are. Cost: about 5 microseconds a point that is
   // looked for, and the patches of all corners.
-  std::shared_ptr<const IndexedFeatures> Align(const Map& map,
-                                               KeyFrameId id,
-                                               const ImagePyramid& pyramid);
+  std::shared_ptr<const FrameFeatures> Align(const Map& map,
+                                             KeyFrameId id,
+                                             const ImagePyramid& pyramid);
 
   // The patches of recent keyframes, the oldest keyframe first.
   const std::deque<KeyFramePatches>& recent() const { return recent_; }

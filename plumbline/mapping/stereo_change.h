@@ -46,7 +46,7 @@ class StereoChange {
   std::optional<State> state_;
   edit::CorrectFeatures change_;
   // Features that no keyframe has any more. They are freed step by step, since freeing takes time.
-  std::deque<std::shared_ptr<const IndexedFeatures>> retired_;
+  std::deque<std::shared_ptr<const FrameFeatures>> retired_;
 };
 
 }  // namespace plumbline

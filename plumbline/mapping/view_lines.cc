@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/association/line_matching.h"
 #include "plumbline/features/match_lines.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/landmark_creation.h"
+#include "plumbline/matching/line_matching.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -33,7 +33,7 @@ struct FreeLines {
 }  // namespace
 
 MapEdit CreateLinesFromViews(const Map& map,
-                             const ImagingModel& imaging,
+                             const CameraAndPyramid& imaging,
                              KeyFrameId id,
                              const LineOptions& lines) {
   const Frame& frame = map.Find(id)->frame;

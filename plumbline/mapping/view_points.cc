@@ -197,7 +197,7 @@ MapPoint NewPoint(const Frame& frame, std::size_t i, const Eigen::Vector3d& posi
 }  // namespace
 
 MapEdit CreatePointsFromViews(const Map& map,
-                              const ImagingModel& imaging,
+                              const CameraAndPyramid& imaging,
                               KeyFrameId id,
                               const LandmarkCreationOptions& options) {
   const Frame& frame = map.Find(id)->frame;

@@ -5,9 +5,9 @@
 #include "plumbline/mapping/lens_calibration.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/map_problem.h"
-#include "plumbline/mapping/unit_of_length.h"
+#include "plumbline/mapping/scale_of_map.h"
 #include "plumbline/optimization/elimination_plan.h"
-#include "plumbline/optimization/pose_sigma.h"
+#include "plumbline/optimization/pose_uncertainty.h"
 #include "plumbline/optimization/sharing_poses.h"
 
 #include <cstddef>
@@ -30,7 +30,7 @@ constexpr LineMapOptions kAdjustedLines{.min_keyframes = 4,
 // Makes a problem of the whole map with the lines that are well seen. Its world is the camera of
 // the first keyframe. When stopped, points are missing.
 MapProblem MakeWholeMap(const Map& map,
-                        const ImagingModel& imaging,
+                        const CameraAndPyramid& imaging,
                         const LineWeights& weights,
                         const std::vector<WellSeenLine>& lines,
                         const StopCheck& stop) {
@@ -62,7 +62,7 @@ bool TakesTooLong(const MapProblem& whole, int limit, const StopCheck& stop) {
 // found when the lens was learned, or else from those of the problem. Another lens changes the
 // scale from place to place by more than AdjustWholeMap accepts before it sees a tear in the map,
 // so that poses and points have to move there first. Returns nullopt when stopped.
-std::optional<BaResult> SolveForLens(const LearnedLens& lens,
+std::optional<BaResult> SolveForLens(const RadialCalibration& lens,
                                      const MappingOptions& options,
                                      BaProblem problem,
                                      const StopCheck& stop) {
@@ -77,22 +77,22 @@ std::optional<BaResult> SolveForLens(const LearnedLens& lens,
   ba.max_iterations = 40;
   ba.function_tolerance = 1e-6;
   const BaProblem start = problem;  // in which no pose is held yet, so that all are scaled
-  return SolveInOnePiece(
+  return SolveWithPoseLimits(
       problem,
       ba,
       SolveLocalBa,
       options.window.local_limits(),
-      [&](BaResult& solution) { KeepUnitOfTheOldest(start, solution); },
+      [&](BaResult& solution) { FixScaleToOldestKeyFrame(start, solution); },
       stop);
 }
 
 // Returns the places that an adjustment found, and the lens correction of the features together
 // with what was learned beside it.
-Correction CorrectionOf(const Map& map,
-                        const MapProblem& whole,
-                        const LensCorrection& learned,
-                        const BaResult& result) {
-  Correction correction;
+MapCorrection CorrectionOf(const Map& map,
+                           const MapProblem& whole,
+                           const LensCorrection& learned,
+                           const BaResult& result) {
+  MapCorrection correction;
   const std::vector<double> scales = ScalesOf(whole.problem, result);
   const Rigid3 world_from_problem = Inverse(whole.problem_from_world);
   for (std::size_t k = 0; k < whole.keyframes.size(); ++k) {
@@ -116,15 +116,15 @@ Correction CorrectionOf(const Map& map,
 }
 
 // Adjusts keyframes and points of a map that will still grow to a change of the lens.
-Correction AdjustPointsToLens(const Map& map,
-                              const LearnedLens& change,
-                              const MappingOptions& options,
-                              MapProblem whole,
-                              const StopCheck& stop) {
+MapCorrection AdjustPointsToLens(const Map& map,
+                                 const RadialCalibration& change,
+                                 const MappingOptions& options,
+                                 MapProblem whole,
+                                 const StopCheck& stop) {
   Correct(change.correction, whole.problem);
   std::optional<BaResult> result = SolveForLens(change, options, whole.problem, stop);
   if (!result) return {};
-  const std::vector<PoseSigma> sigmas = SigmasOfPoses(whole.problem, *result);
+  const std::vector<PoseUncertainty> sigmas = SigmasOfPoses(whole.problem, *result);
   const auto is_fixed = [&](std::size_t k) {
     return sigmas[k].AtMost(options.window.max_pose_sigma);
   };
@@ -133,7 +133,7 @@ Correction AdjustPointsToLens(const Map& map,
   KeepPlaceOf(newest, whole.problem, *result);
   // CorrectionOf leaves fixed keyframes in their places, and the first one has moved with the rest.
   whole.problem.poses.front().fixed = false;
-  Correction correction = CorrectionOf(map, whole, change.correction, *result);
+  MapCorrection correction = CorrectionOf(map, whole, change.correction, *result);
   for (std::size_t k = 0; k < whole.keyframes.size(); ++k) {
     if (!is_fixed(k)) correction.keyframes.erase(whole.keyframes[k]);
   }
@@ -142,11 +142,11 @@ Correction AdjustPointsToLens(const Map& map,
 
 }  // namespace
 
-Correction AdjustWholeMap(const Map& map,
-                          const ImagingModel& imaging,
-                          const LineOptions& lines,
-                          const MappingOptions& options,
-                          const StopCheck& stop) {
+MapCorrection AdjustWholeMap(const Map& map,
+                             const CameraAndPyramid& imaging,
+                             const LineOptions& lines,
+                             const MappingOptions& options,
+                             const StopCheck& stop) {
   constexpr std::size_t kMinKeyFrames = 3;
   const int limit = options.final_adjustment_keyframes;
   const std::size_t count = map.keyframes().size();
@@ -162,53 +162,55 @@ Correction AdjustWholeMap(const Map& map,
   // take too long.
   if (large && TakesTooLong(whole, limit, stop)) whole = without_lines();
   if (IsToStop(stop)) return {};
-  const LearnedLens learned =
-      options.lens_calibration ? LearnLens(whole.problem, map.correction().lens.border_px(), stop)
-                               : LearnedLens{};
+  const RadialCalibration learned =
+      options.lens_calibration
+          ? CalibrateRadialDistortion(whole.problem, map.correction().lens.border_px(), stop)
+          : RadialCalibration{};
   Correct(learned.correction, whole.problem);
   BaProblem problem = whole.problem;
   // A map that has a lens correction may have taken in keyframes of a map that had another one.
   if (!learned.poses.empty() || map.correction().lens.border_px() != 0) {
     auto moved = SolveForLens(learned, options, problem, stop);
     if (!moved) return {};
-    KeepUnitOfTheOldest(whole.problem, *moved);
+    FixScaleToOldestKeyFrame(whole.problem, *moved);
     TakePosesAndPoints(*moved, problem);
   }
-  // KeepUnitOfTheOldest gets `whole.problem`, in which the poses that SolveInOnePiece holds are
-  // free, so that it scales all poses.
-  const std::optional<BaResult> result = SolveInOnePiece(
+  // FixScaleToOldestKeyFrame gets `whole.problem`, in which the poses that SolveWithPoseLimits
+  // holds are free, so that it scales all poses.
+  const std::optional<BaResult> result = SolveWithPoseLimits(
       problem,
       options.ba,
       lines.method.adjust_map,
       options.window.whole_map_limits(),
-      [&](BaResult& solution) { KeepUnitOfTheOldest(whole.problem, solution); },
+      [&](BaResult& solution) { FixScaleToOldestKeyFrame(whole.problem, solution); },
       stop);
   if (!result) return {};
   return CorrectionOf(map, whole, learned.correction, *result);
 }
 
-Correction AdjustToLens(const Map& map,
-                        const ImagingModel& imaging,
-                        const LineWeights& weights,
-                        const MappingOptions& options,
-                        const StopCheck& stop) {
+MapCorrection AdjustToLens(const Map& map,
+                           const CameraAndPyramid& imaging,
+                           const LineWeights& weights,
+                           const MappingOptions& options,
+                           const StopCheck& stop) {
   if (map.keyframes().empty() || IsToStop(stop)) return {};
   MapProblem whole = MakeWholeMap(map, imaging, weights, {}, stop);
   if (IsToStop(stop)) return {};
-  const LearnedLens learned = LearnLens(whole.problem, map.correction().lens.border_px(), stop);
+  const RadialCalibration learned =
+      CalibrateRadialDistortion(whole.problem, map.correction().lens.border_px(), stop);
   if (learned.poses.empty()) return {};
   return AdjustPointsToLens(map, learned, options, std::move(whole), stop);
 }
 
-Correction BringToLens(const Map& map,
-                       const ImagingModel& imaging,
-                       const LineWeights& weights,
-                       const MappingOptions& options,
-                       const LensCorrection& lens,
-                       const StopCheck& stop) {
+MapCorrection BringToLens(const Map& map,
+                          const CameraAndPyramid& imaging,
+                          const LineWeights& weights,
+                          const MappingOptions& options,
+                          const LensCorrection& lens,
+                          const StopCheck& stop) {
   const double change = lens.border_px() - map.correction().lens.border_px();
   if (change == 0 || map.keyframes().empty()) return {};
-  const LearnedLens known{{imaging.camera, change}, {}, {}};
+  const RadialCalibration known{{imaging.camera, change}, {}, {}};
   MapProblem whole = MakeWholeMap(map, imaging, weights, {}, stop);
   if (IsToStop(stop)) return {};
   return AdjustPointsToLens(map, known, options, std::move(whole), stop);

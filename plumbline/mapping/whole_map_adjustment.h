@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/line_options.h"
-#include "plumbline/association/projection_search.h"
 #include "plumbline/base/stop_check.h"
 #include "plumbline/map/map.h"
-#include "plumbline/mapping/correction.h"
+#include "plumbline/mapping/map_correction.h"
 #include "plumbline/mapping/options.h"
+#include "plumbline/matching/line_options.h"
+#include "plumbline/matching/projection_search.h"
 
 namespace plumbline {
 
@@ -21,48 +21,50 @@ namespace plumbline {
 //
 // Some keyframes stay where they are: the first one, those that the points and well seen lines do
 // not fix to mapping.window.max_pose_sigma, and both of two consecutive keyframes that would move
-// against one another by more than that (SolveInOnePiece). With a single camera the depth of what
-// the first keyframe shows is kept, in the median, and each keyframe gets the scale by which the
-// depths it shows have changed (KeyFrame::unit).
+// against one another by more than that (SolveWithPoseLimits). With a single camera the depth of
+// what the first keyframe shows is kept, in the median, and each keyframe gets the scale by which
+// the depths it shows have changed (KeyFrame::scale).
 //
 // With a single camera, the radial distortion of the lens that the calibration has left is learned
-// from the points first and taken out of all measurements (LearnLens, mapping.lens_calibration). It
-// becomes part of the correction, beside what the map's features are corrected by already. Where
-// the features are corrected for a lens, points are adjusted without lines first.
+// from the points first and taken out of all measurements (CalibrateRadialDistortion,
+// mapping.lens_calibration). It becomes part of the correction, beside what the map's features are
+// corrected by already. Where the features are corrected for a lens, points are adjusted without
+// lines first.
 //
 // Returns an empty correction for a map of less than three keyframes, and for one whose equations
 // take longer to solve than those of mapping.final_adjustment_keyframes keyframes that all share
 // landmarks (FullSize); if only the lines make it so large, it is adjusted without them. The
 // correction is also empty when `stop` says so before the end. Cost: FindWellSeenLines, and bundle
 // adjustment of the whole map, with the time of SchurSolver::Solve.
-Correction AdjustWholeMap(const Map& map,
-                          const ImagingModel& imaging,
-                          const LineOptions& lines,
-                          const MappingOptions& options,
-                          const StopCheck& stop = {});
+MapCorrection AdjustWholeMap(const Map& map,
+                             const CameraAndPyramid& imaging,
+                             const LineOptions& lines,
+                             const MappingOptions& options,
+                             const StopCheck& stop = {});
 
-// Learns the lens of a single camera from the points of a map that will still grow (LearnLens), and
-// adjusts keyframes and points to it. The newest keyframe that points fix stays where it is, with
-// the lengths around it, so that tracking goes on without a step. Keyframes that points do not fix
-// to mapping.window.max_pose_sigma are not in the correction, so that they move with their parents.
-// Lines move with the keyframes that show them.
+// Learns the lens of a single camera from the points of a map that will still grow
+// (CalibrateRadialDistortion), and adjusts keyframes and points to it. The newest keyframe that
+// points fix stays where it is, with the lengths around it, so that tracking goes on without a
+// step. Keyframes that points do not fix to mapping.window.max_pose_sigma are not in the
+// correction, so that they move with their parents. Lines move with the keyframes that show them.
 //
 // Returns an empty correction where nothing is learned, and when `stop` says so before the end.
-// Cost: LearnLens, and one more adjustment of the points where something is learned.
-Correction AdjustToLens(const Map& map,
-                        const ImagingModel& imaging,
-                        const LineWeights& weights,
-                        const MappingOptions& options,
-                        const StopCheck& stop = {});
+// Cost: CalibrateRadialDistortion, and one more adjustment of the points where something is
+// learned.
+MapCorrection AdjustToLens(const Map& map,
+                           const CameraAndPyramid& imaging,
+                           const LineWeights& weights,
+                           const MappingOptions& options,
+                           const StopCheck& stop = {});
 
 // Adjusts a map of a single camera to a lens that is known from another map, as AdjustToLens does
 // to one that it learns. Returns an empty correction where the map has that lens. Cost: an
 // adjustment of the points.
-Correction BringToLens(const Map& map,
-                       const ImagingModel& imaging,
-                       const LineWeights& weights,
-                       const MappingOptions& options,
-                       const LensCorrection& lens,
-                       const StopCheck& stop = {});
+MapCorrection BringToLens(const Map& map,
+                          const CameraAndPyramid& imaging,
+                          const LineWeights& weights,
+                          const MappingOptions& options,
+                          const LensCorrection& lens,
+                          const StopCheck& stop = {});
 
 }  // namespace plumbline

@@ -6,7 +6,7 @@
 #include "plumbline/base/median.h"
 #include "plumbline/geometry/eigenpairs.h"
 #include "plumbline/geometry/symmetric_system.h"
-#include "plumbline/optimization/pose_only_result.h"
+#include "plumbline/optimization/pose_optimization_result.h"
 #include "plumbline/optimization/pose_terms.h"
 #include "plumbline/optimization/robust_loss.h"
 #include "plumbline/optimization/uncertain_point.h"
@@ -20,8 +20,8 @@
 
 namespace plumbline {
 
-// Does what SolvePose does, for any residual of lines. Internal to pose_only.cc and the laboratory,
-// which compares another residual.
+// Does what SolvePose does, for any residual of lines. Internal to pose_optimization.cc and the
+// laboratory, which compares another residual.
 
 // Whether all six degrees of freedom are fixed: the information, scaled to a unit diagonal, is
 // regular.

@@ -39,8 +39,8 @@ struct BaProblem {
   struct Pose {
     Rigid3 cam_from_world;
     bool fixed = false;
-    // Whether it comes soon after the pose before it in time (HoldTornPoses); SolveLocalBa does not
-    // use it.
+    // Whether it comes soon after the pose before it in time (FixInconsistentPoses); SolveLocalBa
+    // does not use it.
     bool follows = true;
   };
   // An observation of a point; indices into `poses` and `points`.
@@ -81,7 +81,7 @@ struct PosePrior {
   Matrix6d information = Matrix6d::Zero();
 };
 
-// A camera pose to be found from landmarks that do not move, by SolvePose (pose_only.h).
+// A camera pose to be found from landmarks that do not move, by SolvePose (pose_optimization.h).
 struct PoseProblem {
   // A point of the map and where the frame shows it.
   struct PointMatch {

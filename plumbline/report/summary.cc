@@ -125,10 +125,10 @@ RunCounts CountRun(const System& system) {
         frame.status == FrameStatus::kTracked && system.atlas().Current(frame.map) == main;
     counts.lost += frame.status == FrameStatus::kLost;
     counts.skipped += frame.status == FrameStatus::kSkipped;
-    counts.dropped += frame.shed == Shed::kFrame;
-    counts.shed_mapping += frame.shed == Shed::kMapping;
-    counts.shed_lines += frame.shed == Shed::kLines;
-    counts.shed_points += frame.shed == Shed::kPoints;
+    counts.dropped += frame.shed == LoadLevel::kFrame;
+    counts.shed_mapping += frame.shed == LoadLevel::kMapping;
+    counts.shed_lines += frame.shed == LoadLevel::kLines;
+    counts.shed_points += frame.shed == LoadLevel::kPoints;
     counts.demoted += frame.demoted;
     counts.initializing += frame.status == FrameStatus::kInitializing;
   }

@@ -34,7 +34,7 @@ struct RunCounts {
   int in_trajectory = 0;
   // Skipped frames for which a live run had no time.
   int dropped = 0;
-  // Frames of a live run, by the last thing it left undone, in the order of Shed.
+  // Frames of a live run, by the last thing it left undone, in the order of LoadLevel.
   int shed_mapping = 0, shed_lines = 0, shed_points = 0;
   int demoted = 0;  // keyframes that mapping had no time for
   int keyframes = 0, points = 0, lines = 0, maps = 0;

@@ -20,6 +20,6 @@ std::string ResultOptionsYaml(const SlamOptions& options);
 void AddMaps(const Atlas& atlas, const LocalMapper::State& mapper, AtlasContext& context);
 
 // Returns the young landmarks of each map, as AddMaps wrote them into the context.
-std::map<MapId, YoungLandmarks> YoungOf(const AtlasContext& context);
+std::map<MapId, RecentLandmarks> YoungOf(const AtlasContext& context);
 
 }  // namespace plumbline

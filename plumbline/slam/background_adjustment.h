@@ -4,7 +4,7 @@
 
 #include "plumbline/base/stop_check.h"
 #include "plumbline/map/map.h"
-#include "plumbline/mapping/correction.h"
+#include "plumbline/mapping/map_correction.h"
 
 #include <atomic>
 #include <cstdint>
@@ -30,12 +30,12 @@ namespace plumbline {
 // taken.
 class BackgroundAdjustment {
  public:
-  using Compute = std::function<Correction(const Map& map, const StopCheck& stop)>;
+  using Compute = std::function<MapCorrection(const Map& map, const StopCheck& stop)>;
   enum class Worker { kCaller, kThread, kThreadOfLowPriority };
 
   struct Result {
     MapId map;
-    Correction correction;
+    MapCorrection correction;
   };
 
   // With Worker::kCaller the correction is computed in the caller's thread when it is taken.
@@ -64,7 +64,7 @@ class BackgroundAdjustment {
     Map map;
     MapId id;
     std::int64_t due_frame = 0;
-    Correction correction;
+    MapCorrection correction;
     std::exception_ptr failure;
     std::atomic<bool> stop = false;
     std::atomic<bool> ready = false;

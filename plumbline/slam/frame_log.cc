@@ -98,7 +98,7 @@ Matrix6d FrameLog::CovarianceOf(const Triangle& triangle) {
 void FrameLog::Store(const FrameRecord& record, Compact& entry) {
   entry.stamp_ns = record.stamp_ns;
   entry.from_reference = NumbersOf(record.from_reference.cam_from_keyframe);
-  entry.unit = record.from_reference.unit;
+  entry.scale = record.from_reference.scale;
   entry.has_causal = record.causal_world_from_camera.has_value();
   if (entry.has_causal) entry.causal = NumbersOf(*record.causal_world_from_camera);
   if (!record.causal_covariance) {
@@ -130,7 +130,7 @@ FrameRecord FrameLog::operator[](std::size_t frame) const {
   record.reason = reasons_[entry.reason];
   record.map = MapId{entry.map};
   record.reference = KeyFrameId{entry.reference};
-  record.from_reference = {PoseOf(entry.from_reference), entry.unit};
+  record.from_reference = {PoseOf(entry.from_reference), entry.scale};
   if (entry.has_causal) record.causal_world_from_camera = PoseOf(entry.causal);
   if (entry.covariance >= 0) {
     record.causal_covariance =
@@ -138,7 +138,7 @@ FrameRecord FrameLog::operator[](std::size_t frame) const {
   }
   record.counts = {entry.counts[0], entry.counts[1], entry.counts[2], entry.counts[3]};
   record.keyframe = entry.keyframe;
-  record.shed = static_cast<Shed>(entry.shed);
+  record.shed = static_cast<LoadLevel>(entry.shed);
   record.demoted = entry.demoted;
   const std::size_t end =
       frame + 1 < size() ? entries_[frame + 1].first_time : milliseconds_.size();

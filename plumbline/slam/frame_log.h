@@ -96,7 +96,7 @@ class FrameLog {
   struct Compact {
     std::int64_t stamp_ns = 0;
     Numbers from_reference{};
-    double unit = 1;
+    double scale = 1;
     Numbers causal{};
     std::int64_t reference = -1;
     std::uint32_t first_time = 0;  // index of the first of its times in milliseconds_

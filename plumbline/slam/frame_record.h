@@ -4,8 +4,8 @@
 
 #include "plumbline/base/ids.h"
 #include "plumbline/geometry/se3.h"
-#include "plumbline/map/placement.h"
-#include "plumbline/slam/shed.h"
+#include "plumbline/map/keyframe_pose.h"
+#include "plumbline/slam/load_level.h"
 #include "plumbline/slam/stage_clock.h"
 #include "plumbline/tracking/frame_counts.h"
 
@@ -49,8 +49,8 @@ struct FrameRecord {
   std::optional<Matrix6d> causal_covariance;
   FrameCounts counts;  // matches and inliers of the pose, or of the attempt that failed
   bool keyframe = false;
-  Shed shed = Shed::kNothing;  // what a live run left undone for this frame
-  bool demoted = false;        // the frame was a keyframe until mapping had no time for it
+  LoadLevel shed = LoadLevel::kNothing;  // what a live run left undone for this frame
+  bool demoted = false;  // the frame was a keyframe until mapping had no time for it
   // Times of the frame, in order. "total" runs from the frame's arrival to its pose. after_* are
   // what was done for the frame after its pose was known (System::Complete). map_* are steps of
   // mapping that ended since the last frame: part of "map" in inline mode, in other modes beside

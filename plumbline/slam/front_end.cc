@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/front_end.h"
 
-#include "plumbline/slam/load_shedding.h"
+#include "plumbline/slam/load_control.h"
 
 #include <algorithm>
 #include <utility>
@@ -35,10 +35,10 @@ FeatureInput FrontEnd::InputOf(const RectifiedFrame& images) const {
   return input;
 }
 
-std::shared_ptr<const IndexedFeatures> FrontEnd::WithRightLines(
+std::shared_ptr<const FrameFeatures> FrontEnd::WithRightLines(
     const RectifiedFrame& images,
-    Shed shed,
-    const std::shared_ptr<const IndexedFeatures>& indexed) const {
+    LoadLevel shed,
+    const std::shared_ptr<const FrameFeatures>& indexed) const {
   const auto& known = indexed->features.line_right;
   if (std::any_of(
           known.begin(), known.end(), [](const auto& right) { return right.has_value(); })) {
@@ -47,12 +47,12 @@ std::shared_ptr<const IndexedFeatures> FrontEnd::WithRightLines(
   return plumbline::WithRightLines(indexed,
                                    FindRightLines(rectifier_.camera(),
                                                   InputOf(images),
-                                                  Lightened(options_, shed),
+                                                  ReducedOptions(options_, shed),
                                                   indexed->features.lines));
 }
 
-MeasuredFrame FrontEnd::Measure(SensorFrame frame, StageClock clock, Shed shed) const {
-  MeasuredFrame measured;
+ExtractedFrame FrontEnd::Measure(SensorFrame frame, StageClock clock, LoadLevel shed) const {
+  ExtractedFrame measured;
   measured.shed = shed;
   measured.stamp_ns = frame.stamp_ns;
   measured.images = rectifier_.Apply(std::move(frame), helper_.get());
@@ -60,7 +60,7 @@ MeasuredFrame FrontEnd::Measure(SensorFrame frame, StageClock clock, Shed shed) 
   const RectifiedCamera& camera = rectifier_.camera();
   ImagePyramid pyramid;
   Features features = ExtractFeatures(
-      camera, InputOf(measured.images), Lightened(options_, shed), helper_.get(), &pyramid);
+      camera, InputOf(measured.images), ReducedOptions(options_, shed), helper_.get(), &pyramid);
   measured.indexed = IndexFeatures(camera, std::move(features));
   if (camera.baseline == 0) {
     measured.left_pyramid = std::make_shared<const ImagePyramid>(std::move(pyramid));

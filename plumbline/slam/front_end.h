@@ -8,7 +8,7 @@
 #include "plumbline/geometry/calibration.h"
 #include "plumbline/image/image.h"
 #include "plumbline/image/rectify.h"
-#include "plumbline/slam/measured_frame.h"
+#include "plumbline/slam/extracted_frame.h"
 
 #include <memory>
 
@@ -23,15 +23,17 @@ class FrontEnd {
   // Rectifies the images and measures features. Throws InputError when an image has another size
   // than the calibration says. Thread-safe; the same frame gives the same features. With `shed`,
   // fewer lines or points are measured.
-  MeasuredFrame Measure(SensorFrame frame, StageClock clock = {}, Shed shed = Shed::kNothing) const;
+  ExtractedFrame Measure(SensorFrame frame,
+                         StageClock clock = {},
+                         LoadLevel shed = LoadLevel::kNothing) const;
 
   // Returns the features together with the places of the lines in the right image, which are needed
   // to make landmarks of lines. Features that have these places already are returned as they are.
   // The features may have been corrected since they were measured. `shed` is that of Measure.
-  std::shared_ptr<const IndexedFeatures> WithRightLines(
+  std::shared_ptr<const FrameFeatures> WithRightLines(
       const RectifiedFrame& images,
-      Shed shed,
-      const std::shared_ptr<const IndexedFeatures>& indexed) const;
+      LoadLevel shed,
+      const std::shared_ptr<const FrameFeatures>& indexed) const;
 
   const Rectifier& rectifier() const { return rectifier_; }
   // The thread that shares the work on images; null where features are measured in one thread.

@@ -9,7 +9,7 @@
 
 namespace plumbline {
 
-JoinedMaps JoinBy(const LoopEdge& edge, Atlas& atlas) {
+JoinedMaps JoinMaps(const LoopEdge& edge, Atlas& atlas) {
   const Map* query = MapOf(atlas, edge.query);
   const Map* candidate = MapOf(atlas, edge.candidate);
   PLUMBLINE_CHECK(query != nullptr && candidate != nullptr && query != candidate,

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/loop/loop_edge.h"
+#include "plumbline/loop_closing/loop_edge.h"
 #include "plumbline/map/atlas.h"
 
 namespace plumbline {
@@ -16,6 +16,6 @@ struct JoinedMaps {
 // Makes one map of the two that an edge ties. The older map takes in the younger one, moved as the
 // edge says, and becomes the active one. No landmarks are fused. Throws BugError where the edge
 // does not tie two maps.
-JoinedMaps JoinBy(const LoopEdge& edge, Atlas& atlas);
+JoinedMaps JoinMaps(const LoopEdge& edge, Atlas& atlas);
 
 }  // namespace plumbline

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/map_merge.h"
 
-#include "plumbline/loop/close_loop.h"
-#include "plumbline/loop/essential_graph.h"
-#include "plumbline/loop/pairwise_consistency.h"
-#include "plumbline/loop/verify_loop.h"
+#include "plumbline/loop_closing/close_loop.h"
+#include "plumbline/loop_closing/essential_graph.h"
+#include "plumbline/loop_closing/pairwise_consistency.h"
+#include "plumbline/loop_closing/verify_loop.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/local_mapper.h"
 #include "plumbline/place/place_index.h"
@@ -91,7 +91,7 @@ Expected<std::vector<LoopEdge>, MergeRefusal> Judged(const Atlas& atlas,
                                                      const LoopOptions& options) {
   if (Queries(edges) < kFewestQueries) return MergeRefusal::kNoOverlap;
   Atlas trial = atlas;
-  JoinBy(edges.front(), trial);
+  JoinMaps(edges.front(), trial);
   Parts parts = Agreeing(trial.active(), edges, free_scale, options);
   if (Queries(parts.chosen) < kFewestQueries) return MergeRefusal::kNoOverlap;
   const Parts rivals = Agreeing(trial.active(), parts.others, free_scale, options);
@@ -153,7 +153,7 @@ int TieAll(const std::set<KeyFrameId>& of_first,
       if (tied.contains(id)) continue;
       const auto older = ClosestAmong(of_first, map, id, min_shared);
       if (!older) continue;
-      mapper.Tie(map, id, *older);
+      mapper.AdjustLoopNeighbourhood(map, id, *older);
       tied.insert(id);
     }
     std::reverse(of_second.begin(), of_second.end());
@@ -165,7 +165,7 @@ int TieAll(const std::set<KeyFrameId>& of_first,
 
 std::vector<LoopEdge> FindOverlap(const Map& first,
                                   const Map& second,
-                                  const ImagingModel& imaging,
+                                  const CameraAndPyramid& imaging,
                                   const LoopVerificationOptions& options) {
   PlaceIndex places;
   for (const auto& [id, keyframe] : first.keyframes()) places.Add(id, keyframe.frame.features());
@@ -182,11 +182,11 @@ std::vector<LoopEdge> FindOverlap(const Map& first,
   return edges;
 }
 
-Expected<MergedMaps, MergeRefusal> MergeBySight(const Atlas& atlas,
-                                                MapId first,
-                                                MapId second,
-                                                const ImagingModel& imaging,
-                                                const SlamOptions& options) {
+Expected<MergedMaps, MergeRefusal> MergeMaps(const Atlas& atlas,
+                                             MapId first,
+                                             MapId second,
+                                             const CameraAndPyramid& imaging,
+                                             const SlamOptions& options) {
   PLUMBLINE_CHECK(atlas.Find(first) != nullptr && atlas.Find(second) != nullptr && first < second,
                   "maps to be merged, the older one first");
   const bool free_scale = imaging.camera.baseline == 0;
@@ -199,7 +199,7 @@ Expected<MergedMaps, MergeRefusal> MergeBySight(const Atlas& atlas,
   if (!overlap) return overlap.error();
   MergedMaps merged{atlas, {}, *overlap};
   merged.first_from_second = CandidateWorldFromQueryWorld(of_second, of_first, overlap->front());
-  JoinBy(overlap->front(), merged.atlas);
+  JoinMaps(overlap->front(), merged.atlas);
   Map& map = merged.atlas.active();
   if (!Bend(*overlap, free_scale, options.loop, map)) return MergeRefusal::kContradicted;
   const std::vector<KeyFrameId> ids = KeyFramesOf(of_first);

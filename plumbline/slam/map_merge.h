@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/projection_search.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/options.h"
 #include "plumbline/geometry/sim3.h"
-#include "plumbline/loop/loop_edge.h"
+#include "plumbline/loop_closing/loop_edge.h"
 #include "plumbline/map/atlas.h"
+#include "plumbline/matching/projection_search.h"
 #include "plumbline/slam/options.h"
 
 #include <array>
@@ -48,7 +48,7 @@ struct MergedMaps {
 // edges. Cost: some tens of milliseconds for each keyframe of the second map.
 std::vector<LoopEdge> FindOverlap(const Map& first,
                                   const Map& second,
-                                  const ImagingModel& imaging,
+                                  const CameraAndPyramid& imaging,
                                   const LoopVerificationOptions& options);
 
 // Makes one map of two that have not been related to each other yet. `first`, the older one, keeps
@@ -57,19 +57,20 @@ std::vector<LoopEdge> FindOverlap(const Map& first,
 // The edges between the two (FindOverlap) must agree. Of the edges that close cycles with each
 // other by way of odometry (Mangelson et al., ICRA 2018) the largest set is taken. It must have
 // edges of at least two keyframes of the second map, and more than twice as many of them as any set
-// that disagrees with it (rooms may look alike). The surest edge joins the maps (JoinBy), all edges
-// together bend the joined map (CloseLoop), and the landmarks that they pair are fused. From there
-// on more is fused and adjusted around each keyframe of the second map that shares landmarks with
-// the first, and at last the whole map is adjusted (LocalMapper::Tie, Finish).
+// that disagrees with it (rooms may look alike). The surest edge joins the maps (JoinMaps), all
+// edges together bend the joined map (CloseLoop), and the landmarks that they pair are fused. From
+// there on more is fused and adjusted around each keyframe of the second map that shares landmarks
+// with the first, and at last the whole map is adjusted (LocalMapper::AdjustLoopNeighbourhood,
+// Finish).
 //
 // With one camera the second map also takes over the unit of length of the first. The same input
 // gives the same result.
 //
 //   cost  FindOverlap, some tenths of a second for each keyframe that both share, AdjustWholeMap
-Expected<MergedMaps, MergeRefusal> MergeBySight(const Atlas& atlas,
-                                                MapId first,
-                                                MapId second,
-                                                const ImagingModel& imaging,
-                                                const SlamOptions& options);
+Expected<MergedMaps, MergeRefusal> MergeMaps(const Atlas& atlas,
+                                             MapId first,
+                                             MapId second,
+                                             const CameraAndPyramid& imaging,
+                                             const SlamOptions& options);
 
 }  // namespace plumbline

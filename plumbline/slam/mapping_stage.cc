@@ -6,7 +6,7 @@
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/whole_map_adjustment.h"
 #include "plumbline/slam/atlas_places.h"
-#include "plumbline/slam/keyframes_ahead.h"
+#include "plumbline/slam/pending_keyframes.h"
 
 #include <algorithm>
 #include <chrono>
@@ -16,22 +16,22 @@ namespace plumbline {
 namespace {
 
 // Features of all keyframes are corrected at once when a lens is learned, which must not take long.
-bool MayLearnLens(const Map& map) {
+bool MayCalibrateRadialDistortion(const Map& map) {
   constexpr std::size_t kMostKeyFrames = 512;
   return map.keyframes().size() <= kMostKeyFrames;
 }
 
-BackgroundAdjustment::Compute WholeMapAdjustment(const ImagingModel& imaging,
+BackgroundAdjustment::Compute WholeMapAdjustment(const CameraAndPyramid& imaging,
                                                  const SlamOptions& options) {
   return [imaging, lines = options.lines, mapping = options.mapping](const Map& map,
                                                                      const StopCheck& stop) {
     MappingOptions adjusted = mapping;
-    adjusted.lens_calibration = mapping.lens_calibration && MayLearnLens(map);
+    adjusted.lens_calibration = mapping.lens_calibration && MayCalibrateRadialDistortion(map);
     return AdjustWholeMap(map, imaging, lines, adjusted, stop);
   };
 }
 
-BackgroundAdjustment::Compute LensAdjustment(const ImagingModel& imaging,
+BackgroundAdjustment::Compute LensAdjustment(const CameraAndPyramid& imaging,
                                              const SlamOptions& options) {
   return [imaging, weights = options.lines.weights(), mapping = options.mapping](
              const Map& map, const StopCheck& stop) {
@@ -47,7 +47,7 @@ BackgroundAdjustment::Worker AdjustmentWorker(RunMode mode, const Execution& exe
 
 }  // namespace
 
-MappingStage::MappingStage(const ImagingModel& imaging,
+MappingStage::MappingStage(const CameraAndPyramid& imaging,
                            const SlamOptions& options,
                            const Execution& execution)
     : mode_(options.slam.mode),
@@ -72,14 +72,14 @@ MappingStage::~MappingStage() {
   task_added_.notify_all();
 }
 
-std::optional<DemotedKeyFrame> MappingStage::Submit(std::int64_t frame,
+std::optional<DroppedKeyFrame> MappingStage::Submit(std::int64_t frame,
                                                     NewKeyFrame keyframe,
                                                     bool starts_map) {
   Submit(frame, Work(std::make_shared<const NewKeyFrame>(std::move(keyframe))), starts_map);
   return mode_ == RunMode::kLive ? GiveUpOne() : std::nullopt;
 }
 
-void MappingStage::Submit(std::int64_t frame, MapStart start) {
+void MappingStage::Submit(std::int64_t frame, InitialMapEdit start) {
   Submit(frame, Work(std::move(start)), true);
 }
 
@@ -87,16 +87,16 @@ void MappingStage::Submit(std::int64_t frame, RelocalizationRequest request) {
   Submit(frame, Work(std::move(request)), false);
 }
 
-void MappingStage::Submit(std::int64_t frame, MapReturn back) {
+void MappingStage::Submit(std::int64_t frame, SwitchMap back) {
   Submit(frame, Work(back), false);
   ForgetEarlierSnapshots();
 }
 
-void MappingStage::Submit(std::int64_t frame, Sighting sighting) {
+void MappingStage::Submit(std::int64_t frame, UpdateLocalMapRequest sighting) {
   Submit(frame, Work(std::move(sighting)), false);
 }
 
-void MappingStage::Submit(std::int64_t frame, Visit visit) {
+void MappingStage::Submit(std::int64_t frame, MapReader visit) {
   Submit(frame, Work(std::move(visit)), false);
 }
 
@@ -121,7 +121,7 @@ void MappingStage::Use(const std::shared_ptr<const MapSnapshot>& snapshot) {
   const std::lock_guard lock(mutex_);
   const auto& before = versions_.back().snapshot;
   if (before != nullptr && before->map != snapshot->map) ForgetEarlierSnapshots();
-  for (Version& version : versions_) version.snapshot = snapshot;
+  for (PublishedSnapshot& version : versions_) version.snapshot = snapshot;
 }
 
 // Snapshots taken before the last task that was submitted show another map than the one in use.
@@ -149,7 +149,7 @@ void MappingStage::Submit(std::int64_t frame, Work work, bool starts_map) {
 
 // Gives up one keyframe where more than kMaxWaiting wait: the one with the fewest new measurements,
 // the older one of two. The newest is kept, since tracking goes on from it.
-std::optional<DemotedKeyFrame> MappingStage::GiveUpOne() {
+std::optional<DroppedKeyFrame> MappingStage::GiveUpOne() {
   const std::lock_guard lock(mutex_);
   std::vector<std::size_t> places;  // positions of the waiting keyframes in tasks_
   std::vector<std::shared_ptr<const NewKeyFrame>> waiting;
@@ -177,12 +177,12 @@ std::optional<DemotedKeyFrame> MappingStage::GiveUpOne() {
   for (std::size_t k = 0; k < places.size(); ++k) tasks_[places[k]].work = waiting[k];
   tasks_.erase(tasks_.begin() + static_cast<std::ptrdiff_t>(place));
   const KeyFrame& keyframe = gone->keyframe;
-  return DemotedKeyFrame{keyframe.id, keyframe.frame.id, keyframe.parent, gone->from_parent};
+  return DroppedKeyFrame{keyframe.id, keyframe.frame.id, keyframe.parent, gone->from_parent};
 }
 
 std::shared_ptr<const MapSnapshot> MappingStage::SnapshotFor(std::int64_t frame) {
   std::int64_t wanted = 0;
-  for (const Due& due : dues_) {
+  for (const SnapshotDue& due : dues_) {
     if (due.frame <= frame) wanted = due.task;
   }
   while (!dues_.empty() && dues_.front().task <= wanted) dues_.pop_front();
@@ -199,7 +199,7 @@ std::shared_ptr<const MapSnapshot> MappingStage::NewestSnapshot() {
   {
     const std::lock_guard lock(mutex_);
     for (; versions_.size() > 1; versions_.pop_front()) {
-      const Version& earlier = versions_.front();
+      const PublishedSnapshot& earlier = versions_.front();
       const bool of_this_map = earlier.task >= map_begins_ && earlier.snapshot != nullptr;
       if (of_this_map && earlier.snapshot != versions_[1].snapshot) {
         kept_.push_front(earlier.snapshot);
@@ -215,8 +215,9 @@ std::shared_ptr<const MapSnapshot> MappingStage::NewestSnapshot() {
   if (kept_.size() > kEarlierKept) kept_.resize(kEarlierKept);
   if (base == nullptr) return nullptr;
   if (base != base_ || ahead != ahead_) {
-    with_ahead_ =
-        ahead.empty() ? base : WithKeyFramesAhead(*base, ahead, camera_, mapping_options_.creation);
+    with_ahead_ = ahead.empty()
+                      ? base
+                      : WithPendingKeyFrames(*base, ahead, camera_, mapping_options_.creation);
     base_ = std::move(base);
     ahead_ = std::move(ahead);
   }
@@ -232,11 +233,11 @@ std::shared_ptr<const MapSnapshot> MappingStage::EarlierSnapshot() {
 std::size_t MappingStage::Waiting() const {
   const std::lock_guard lock(mutex_);
   return static_cast<std::size_t>(std::count_if(tasks_.begin(), tasks_.end(), [](const Task& task) {
-    return !std::holds_alternative<Visit>(task.work);
+    return !std::holds_alternative<MapReader>(task.work);
   }));
 }
 
-void MappingStage::Lighten(Shed shed) {
+void MappingStage::Lighten(LoadLevel shed) {
   const std::lock_guard lock(mutex_);
   shed_ = shed;
 }
@@ -249,7 +250,7 @@ bool MappingStage::WorkOnce() {
 }
 
 void MappingStage::Finish(const StopCheck& stop) {
-  Lighten(Shed::kNothing);
+  Lighten(LoadLevel::kNothing);
   WaitFor(submitted_);
   dues_.clear();
   const std::lock_guard lock(mutex_);
@@ -271,8 +272,8 @@ void MappingStage::CheckMappingDone() const {
   PLUMBLINE_CHECK(LastDone() == submitted_, "maps are complete only after Finish");
 }
 
-std::vector<DemotedKeyFrame> MappingStage::NotMapped() const {
-  std::vector<DemotedKeyFrame> gone;
+std::vector<DroppedKeyFrame> MappingStage::NotMapped() const {
+  std::vector<DroppedKeyFrame> gone;
   const auto add = [&](const NewKeyFrame& added) {
     const KeyFrame& keyframe = added.keyframe;
     if (!keyframe.parent.valid() || MapOf(atlas_, keyframe.id) != nullptr) return;
@@ -342,7 +343,7 @@ void MappingStage::WorkUntilStopped() {
 // Does the next task and keeps what it throws for WaitFor, which the tracker's thread calls.
 void MappingStage::TryNext(std::unique_lock<std::mutex>& lock) {
   try {
-    DoNext(lock);
+    ProcessNext(lock);
   } catch (...) {
     if (!lock.owns_lock()) lock.lock();
     failure_ = std::current_exception();
@@ -350,22 +351,22 @@ void MappingStage::TryNext(std::unique_lock<std::mutex>& lock) {
 }
 
 // Does the next task; the lock is released while it works.
-void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
+void MappingStage::ProcessNext(std::unique_lock<std::mutex>& lock) {
   const Task task = std::move(tasks_.front());
   tasks_.pop_front();
   const auto* added = std::get_if<std::shared_ptr<const NewKeyFrame>>(&task.work);
   begun_ = added != nullptr ? *added : nullptr;
-  if (mode_ == RunMode::kLive) mapper_.SetOptions(Lightened(mapping_options_, shed_));
+  if (mode_ == RunMode::kLive) mapper_.SetOptions(ReducedOptions(mapping_options_, shed_));
   lock.unlock();
   // Where no other task follows, the end of the run gives the correction up; with a visit, too.
-  const bool changes_nothing = std::holds_alternative<Visit>(task.work);
+  const bool changes_nothing = std::holds_alternative<MapReader>(task.work);
   if (mode_ == RunMode::kLive || !changes_nothing) TakeCorrection(task.frame);
   Done done = task.starts_map ? StartMap(task) : DoWork(task);
   lock.lock();
   begun_ = nullptr;
   const auto& in_use = versions_.back().snapshot;
   // The lost camera may have been found in another map since it saw this.
-  const bool is_sighting = std::holds_alternative<Sighting>(task.work);
+  const bool is_sighting = std::holds_alternative<UpdateLocalMapRequest>(task.work);
   if (is_sighting && done.snapshot && in_use && done.snapshot->map != in_use->map) {
     done.snapshot = nullptr;
   }
@@ -382,7 +383,7 @@ void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
 }
 
 MappingStage::Done MappingStage::DoWork(const Task& task) {
-  return std::visit([&](const auto& work) { return Do(work, task.frame); }, task.work);
+  return std::visit([&](const auto& work) { return Process(work, task.frame); }, task.work);
 }
 
 // A map that fails before its first keyframe is in it is as if it never was.
@@ -400,14 +401,14 @@ MappingStage::Done MappingStage::StartMap(const Task& task) {
   }
 }
 
-MappingStage::Done MappingStage::Do(const std::shared_ptr<const NewKeyFrame>& added,
-                                    std::int64_t frame) {
+MappingStage::Done MappingStage::Process(const std::shared_ptr<const NewKeyFrame>& added,
+                                         std::int64_t frame) {
   Map& map = atlas_.active();
   changed_.insert(map.id());
   Done done;
   done.times = mapper_.Add(map, SettledIn(map, *added), added->scores, added->left_pyramid.get());
   Recognize(added->keyframe.id, frame, done.times);
-  LearnLens(added->keyframe.id, frame);
+  CalibrateRadialDistortion(added->keyframe.id, frame);
   done.snapshot = TakeSnapshotAround(atlas_.active(), added->keyframe.id);
   return done;
 }
@@ -425,7 +426,7 @@ void MappingStage::Recognize(KeyFrameId id, std::int64_t frame, std::vector<Mapp
   FollowJoins();
   Map& map = atlas_.active();
   changed_.insert(map.id());
-  const std::vector<MappingStep> more = mapper_.Tie(map, id, *older);
+  const std::vector<MappingStep> more = mapper_.AdjustLoopNeighbourhood(map, id, *older);
   times.insert(times.end(), more.begin(), more.end());
   adjustment_.Begin(map, frame + AdjustmentDelay(map), adjust_map_);
 }
@@ -433,10 +434,12 @@ void MappingStage::Recognize(KeyFrameId id, std::int64_t frame, std::vector<Mapp
 // Begins to learn the lens of a single camera when the map has taken in enough keyframes to tell of
 // it, and again when these have doubled, four times. Where an adjustment is under way, the map is
 // asked with the first keyframe after it.
-void MappingStage::LearnLens(KeyFrameId newest, std::int64_t frame) {
+void MappingStage::CalibrateRadialDistortion(KeyFrameId newest, std::int64_t frame) {
   constexpr std::int64_t kFirst = 16, kLast = 256;
   const Map& map = atlas_.active();
-  if (camera_.baseline > 0 || !mapping_options_.lens_calibration || !MayLearnLens(map)) return;
+  if (camera_.baseline > 0 || !mapping_options_.lens_calibration ||
+      !MayCalibrateRadialDistortion(map))
+    return;
   std::int64_t& asked = lens_asked_.try_emplace(map.id(), kFirst / 2).first->second;
   const std::int64_t taken_in = map.NumberOf(newest) + 1;
   if (adjustment_.Running() || asked >= kLast || taken_in < 2 * asked) return;
@@ -465,7 +468,7 @@ void MappingStage::FollowJoins() {
   std::erase_if(lens_asked_, [&](const auto& asked) { return !atlas_.Find(asked.first); });
 }
 
-MappingStage::Done MappingStage::Do(const MapStart& start, std::int64_t) {
+MappingStage::Done MappingStage::Process(const InitialMapEdit& start, std::int64_t) {
   Map& map = atlas_.active();
   changed_.insert(map.id());
   Done done;
@@ -476,7 +479,7 @@ MappingStage::Done MappingStage::Do(const MapStart& start, std::int64_t) {
   return done;
 }
 
-MappingStage::Done MappingStage::Do(const RelocalizationRequest& request, std::int64_t) {
+MappingStage::Done MappingStage::Process(const RelocalizationRequest& request, std::int64_t) {
   Done done;
   RelocalizationOutcome& outcome = done.relocalization.emplace();
   const std::vector<PlaceToTry> places =
@@ -489,7 +492,7 @@ MappingStage::Done MappingStage::Do(const RelocalizationRequest& request, std::i
   return done;
 }
 
-MappingStage::Done MappingStage::Do(const MapReturn& back, std::int64_t) {
+MappingStage::Done MappingStage::Process(const SwitchMap& back, std::int64_t) {
   const MapId id = atlas_.Current(back.map);
   if (id == atlas_.active_id()) return {};
   mapper_.GoOnInAnotherMap();
@@ -498,7 +501,7 @@ MappingStage::Done MappingStage::Do(const MapReturn& back, std::int64_t) {
   return {};
 }
 
-MappingStage::Done MappingStage::Do(const Sighting& sighting, std::int64_t) {
+MappingStage::Done MappingStage::Process(const UpdateLocalMapRequest& sighting, std::int64_t) {
   const Map& map = *atlas_.Find(atlas_.Current(sighting.map));
   SharedCounts shared;
   for (const PointId id : sighting.points) {
@@ -513,7 +516,7 @@ MappingStage::Done MappingStage::Do(const Sighting& sighting, std::int64_t) {
   return done;
 }
 
-MappingStage::Done MappingStage::Do(const Visit& visit, std::int64_t) {
+MappingStage::Done MappingStage::Process(const MapReader& visit, std::int64_t) {
   visit.look(atlas_, mapper_, places_);
   return {};
 }
@@ -528,12 +531,12 @@ void MappingStage::TakeCorrection(std::int64_t frame) {
   changed_.insert(map.id());
 }
 
-void MappingStage::Apply(const Correction& correction, Map& map) {
+void MappingStage::Apply(const MapCorrection& correction, Map& map) {
   if (correction.lens) {
     const auto& [first, keyframe] = *map.keyframes().begin();
     first_places_.try_emplace(map.id(), PlacedKeyFrame{first, keyframe.frame.cam_from_world});
   }
-  map.Apply(Rebased(correction, map));
+  map.Apply(RebaseCorrection(correction, map));
 }
 
 void MappingStage::MoveFirstKeyFramesBack(Atlas& atlas) const {

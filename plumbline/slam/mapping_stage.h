@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/projection_search.h"
 #include "plumbline/map/atlas.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/mapping/local_mapper.h"
+#include "plumbline/matching/projection_search.h"
 #include "plumbline/slam/background_adjustment.h"
 #include "plumbline/slam/execution.h"
-#include "plumbline/slam/load_shedding.h"
-#include "plumbline/slam/map_start.h"
+#include "plumbline/slam/initial_map_edit.h"
+#include "plumbline/slam/load_control.h"
 #include "plumbline/slam/options.h"
 #include "plumbline/slam/place_recognition.h"
 #include "plumbline/tracking/relocalization.h"
@@ -33,7 +33,7 @@ namespace plumbline {
 
 // A keyframe that mapping had no time or memory for. The frame that it was made of becomes an
 // ordinary frame. Frames that refer to the keyframe refer to its parent from now on.
-struct DemotedKeyFrame {
+struct DroppedKeyFrame {
   KeyFrameId id;
   FrameId frame;
   KeyFrameId parent;
@@ -52,20 +52,20 @@ struct RelocalizationOutcome {
 };
 
 // The lost camera goes on in a map that it had left. From now on this map is the active one.
-struct MapReturn {
+struct SwitchMap {
   MapId map;
   KeyFrameId keyframe;  // the keyframe beside which the camera is
 };
 
 // The landmarks that the camera sees when it leaves the surroundings that the snapshot shows.
-struct Sighting {
+struct UpdateLocalMapRequest {
   MapId map;
   std::vector<PointId> points;
   std::vector<LineId> lines;
 };
 
 // A function to be called with the maps between two keyframes, in the thread that maps.
-struct Visit {
+struct MapReader {
   std::function<void(const Atlas&, const LocalMapper&, const PlaceRecognition&)> look;
 };
 
@@ -79,16 +79,16 @@ struct Visit {
 //   lockstep  A thread begins the work as soon as a keyframe comes, and the caller waits for
 //             exactly the snapshot that the frame is due. The bytes are those of inline.
 //   live      The caller waits only for the first keyframe of a map. It gets the newest snapshot
-//             there is, with the keyframes that are not in it yet (WithKeyFramesAhead), so that
+//             there is, with the keyframes that are not in it yet (WithPendingKeyFrames), so that
 //             tracking always has a map that reaches the camera. At most kMaxWaiting keyframes may
 //             wait; when one more comes, the one without which the map loses least is given up.
 //
 // A map whose shape has changed at large is adjusted as a whole beside mapping
 // (BackgroundAdjustment), and so is a map of one camera that has 16 keyframes or more and tells of
 // the lens. The correction is applied before the first task that was submitted at or after the
-// frame at which it is due and is no Visit, which changes no result; a live run applies it as soon
-// as it is ready. It is applied to the map as it is then (Rebased), and shows in that task's
-// snapshot.
+// frame at which it is due and is no MapReader, which changes no result; a live run applies it as
+// soon as it is ready. It is applied to the map as it is then (RebaseCorrection), and shows in that
+// task's snapshot.
 //
 // A young map of one camera whose unit of length runs away is withdrawn
 // (PlaceRecognition::Withdraws). Its snapshots say so from then on.
@@ -99,7 +99,7 @@ class MappingStage {
   static constexpr std::size_t kMaxWaiting = 4;   // most keyframes that may wait in a live run
   static constexpr std::size_t kEarlierKept = 8;  // most earlier snapshots that a live run keeps
 
-  MappingStage(const ImagingModel& imaging,
+  MappingStage(const CameraAndPyramid& imaging,
                const SlamOptions& options,
                const Execution& execution = {});
   // Leaves undone all tasks that have not begun.
@@ -109,22 +109,22 @@ class MappingStage {
 
   // Submits a keyframe, which opens a new map when `starts_map`. Frames count from 0. Returns the
   // keyframe that was given up for this one, where there is one.
-  std::optional<DemotedKeyFrame> Submit(std::int64_t frame, NewKeyFrame keyframe, bool starts_map);
+  std::optional<DroppedKeyFrame> Submit(std::int64_t frame, NewKeyFrame keyframe, bool starts_map);
   // Submits several keyframes that open a new map.
-  void Submit(std::int64_t frame, MapStart start);
+  void Submit(std::int64_t frame, InitialMapEdit start);
   // Submits a lost frame. TakeRelocalization() gives the outcome from the frame on at which a
   // keyframe of this frame would be in the snapshot.
   void Submit(std::int64_t frame, RelocalizationRequest request);
   // Submits the return to an earlier map. The caller also calls Use() with a snapshot of that map.
-  void Submit(std::int64_t frame, MapReturn back);
+  void Submit(std::int64_t frame, SwitchMap back);
   // Submits what the camera sees. The snapshot becomes the one around the keyframe that shows most
   // of it.
-  void Submit(std::int64_t frame, Sighting sighting);
-  void Submit(std::int64_t frame, Visit visit);
+  void Submit(std::int64_t frame, UpdateLocalMapRequest sighting);
+  void Submit(std::int64_t frame, MapReader visit);
 
   // Moves the maps of this stage's atlas, or of a copy of it, each as a whole, so that the first
   // keyframe is where it was before the map was adjusted to a lens: the world is the camera of that
-  // keyframe. When it may be called: see atlas(), or in a Visit.
+  // keyframe. When it may be called: see atlas(), or in a MapReader.
   void MoveFirstKeyFramesBack(Atlas& atlas) const;
 
   // Begins with maps that there are already, of which one is active, and with what mapping
@@ -157,7 +157,7 @@ class MappingStage {
 
   // Sets what is shed of the keyframes that mapping begins with from now on. Before the first call
   // nothing is shed.
-  void Lighten(Shed shed);
+  void Lighten(LoadLevel shed);
 
   // Does the next task in the caller's thread; returns false when none waits. For live runs
   // without threads (Execution).
@@ -177,7 +177,7 @@ class MappingStage {
 
   // Returns the keyframes that mapping did not take in because it failed, the newest first; none
   // before it failed. Keyframes that start maps are left out, since nothing is known beside them.
-  std::vector<DemotedKeyFrame> NotMapped() const;
+  std::vector<DroppedKeyFrame> NotMapped() const;
 
   // The lines that local bundle adjustment held in memory. When it may be called: see atlas().
   const AdjustedLines& adjusted_lines() const;
@@ -197,11 +197,11 @@ class MappingStage {
 
  private:
   using Work = std::variant<std::shared_ptr<const NewKeyFrame>,
-                            MapStart,
+                            InitialMapEdit,
                             RelocalizationRequest,
-                            MapReturn,
-                            Sighting,
-                            Visit>;
+                            SwitchMap,
+                            UpdateLocalMapRequest,
+                            MapReader>;
   // A piece of work for the mapper. Tasks are numbered from 1 in the order of submission.
   struct Task {
     std::int64_t number = 0;
@@ -209,11 +209,11 @@ class MappingStage {
     Work work;
     bool starts_map = false;
   };
-  struct Due {
+  struct SnapshotDue {
     std::int64_t frame = 0;  // first frame that is to see the task's result
     std::int64_t task = 0;
   };
-  struct Version {
+  struct PublishedSnapshot {
     std::int64_t task = 0;  // the last task whose result is in the snapshot
     std::shared_ptr<const MapSnapshot> snapshot;
   };
@@ -234,26 +234,26 @@ class MappingStage {
 
   void Submit(std::int64_t frame, Work work, bool starts_map);
   void ForgetEarlierSnapshots();
-  std::optional<DemotedKeyFrame> GiveUpOne();
+  std::optional<DroppedKeyFrame> GiveUpOne();
   std::shared_ptr<const MapSnapshot> NewestSnapshot();
   void WaitFor(std::int64_t task);
   void WorkUntilStopped();
   void CheckMappingDone() const;
   void TryNext(std::unique_lock<std::mutex>& lock);
-  void DoNext(std::unique_lock<std::mutex>& lock);
+  void ProcessNext(std::unique_lock<std::mutex>& lock);
   Done DoWork(const Task& task);
   Done StartMap(const Task& task);
   // `frame` is the frame at which the task was submitted.
-  Done Do(const std::shared_ptr<const NewKeyFrame>& added, std::int64_t frame);
-  Done Do(const MapStart& start, std::int64_t frame);
-  Done Do(const RelocalizationRequest& request, std::int64_t frame);
-  Done Do(const MapReturn& back, std::int64_t frame);
-  Done Do(const Sighting& sighting, std::int64_t frame);
-  Done Do(const Visit& visit, std::int64_t frame);
+  Done Process(const std::shared_ptr<const NewKeyFrame>& added, std::int64_t frame);
+  Done Process(const InitialMapEdit& start, std::int64_t frame);
+  Done Process(const RelocalizationRequest& request, std::int64_t frame);
+  Done Process(const SwitchMap& back, std::int64_t frame);
+  Done Process(const UpdateLocalMapRequest& sighting, std::int64_t frame);
+  Done Process(const MapReader& visit, std::int64_t frame);
   void Recognize(KeyFrameId id, std::int64_t frame, std::vector<MappingStep>& times);
-  void LearnLens(KeyFrameId newest, std::int64_t frame);
+  void CalibrateRadialDistortion(KeyFrameId newest, std::int64_t frame);
   void TakeKnownLens(Map& map);
-  void Apply(const Correction& correction, Map& map);
+  void Apply(const MapCorrection& correction, Map& map);
   void FollowJoins();
   void TakeCorrection(std::int64_t frame);
   std::shared_ptr<const MapSnapshot> TakeSnapshotAround(const Map& map, KeyFrameId centre);
@@ -266,7 +266,7 @@ class MappingStage {
   // State of the tracker's thread.
   std::int64_t submitted_ = 0;
   // Tasks whose results later frames are to see; in a live run only those that start maps.
-  std::deque<Due> dues_;
+  std::deque<SnapshotDue> dues_;
   std::int64_t map_begins_ = 0;  // task that began the map in use
   // Earlier snapshots of a live run, the newest first.
   std::deque<std::shared_ptr<const MapSnapshot>> kept_;
@@ -293,10 +293,10 @@ class MappingStage {
   std::condition_variable task_added_, task_done_;
   std::deque<Task> tasks_;
   std::shared_ptr<const NewKeyFrame> begun_;  // keyframe that is being taken in
-  Shed shed_ = Shed::kNothing;
+  LoadLevel shed_ = LoadLevel::kNothing;
   // The versions from the one in use on. The first is that of no task, so that nothing is in use
   // before it is due.
-  std::deque<Version> versions_{{}};
+  std::deque<PublishedSnapshot> versions_{{}};
   std::vector<MappingStep> times_;
   std::deque<Outcome> outcomes_;  // outcomes that nobody has taken yet
   MapEvents events_;              // what EventsSince() tells of

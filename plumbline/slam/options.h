@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/line_options.h"
 #include "plumbline/base/options.h"
-#include "plumbline/cutting/cutting_problem.h"
 #include "plumbline/features/extractor.h"
 #include "plumbline/initialization/options.h"
-#include "plumbline/loop/options.h"
+#include "plumbline/line_cutting/cutting_problem.h"
+#include "plumbline/loop_closing/options.h"
 #include "plumbline/mapping/options.h"
+#include "plumbline/matching/line_options.h"
 #include "plumbline/tracking/options.h"
 
 #include <array>

@@ -66,7 +66,7 @@ void Pipeline::Finish(const StopCheck& stop) {
 
 void Pipeline::Hand(Job job) {
   if (mode_ == RunMode::kInline) {
-    Do(std::move(job));
+    Process(std::move(job));
     return;
   }
   std::unique_lock lock(mutex_);
@@ -96,16 +96,17 @@ std::size_t Pipeline::Waiting() const {
       std::count_if(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.HasFrame(); }));
 }
 
-void Pipeline::Do(Job job) {
+void Pipeline::Process(Job job) {
   if (!job.HasFrame()) {
     dropped_ += job.dropped;
-    observer_(system_.Skip(job.stamp_ns, job.reason, job.dropped ? Shed::kFrame : Shed::kNothing),
+    observer_(system_.Skip(
+                  job.stamp_ns, job.reason, job.dropped ? LoadLevel::kFrame : LoadLevel::kNothing),
               FrameView{});
     return;
   }
   if (job.raw) {
     job.clock.Done("wait");
-    const Shed shed = Decide(job);
+    const LoadLevel shed = Decide(job);
     job.measured = system_.Measure(std::move(*job.raw), std::move(job.clock), shed);
   }
   const FrameRecord& record = system_.Track(std::move(*job.measured));
@@ -114,7 +115,7 @@ void Pipeline::Do(Job job) {
 }
 
 // Returns what to shed for the frame whose turn has come.
-Shed Pipeline::Decide(const Job& job) {
+LoadLevel Pipeline::Decide(const Job& job) {
   Load load;
   const std::chrono::duration<double> waited = execution_.now() - job.arrival;
   if (job.interval > 0) load.wait = waited.count() / job.interval;
@@ -128,7 +129,7 @@ void Pipeline::WorkUntilStopped() {
   while (true) {
     job_added_.wait(lock, [&] { return stop_ || !jobs_.empty(); });
     if (stop_) return;
-    DoNext(lock);
+    ProcessNext(lock);
     if (failure_) return;
   }
 }
@@ -136,20 +137,20 @@ void Pipeline::WorkUntilStopped() {
 bool Pipeline::WorkOnce() {
   std::unique_lock lock(mutex_);
   if (jobs_.empty() || failure_) return false;
-  DoNext(lock);
+  ProcessNext(lock);
   return true;
 }
 
 // Does the next job; the lock is released while it works. What the job throws is rethrown in the
 // feeding thread.
-void Pipeline::DoNext(std::unique_lock<std::mutex>& lock) {
+void Pipeline::ProcessNext(std::unique_lock<std::mutex>& lock) {
   Job job = std::move(jobs_.front());
   jobs_.pop_front();
   busy_ = true;
   lock.unlock();
   std::exception_ptr failure;
   try {
-    Do(std::move(job));
+    Process(std::move(job));
   } catch (...) {
     failure = std::current_exception();
   }

@@ -4,7 +4,7 @@
 
 #include "plumbline/image/image.h"
 #include "plumbline/slam/execution.h"
-#include "plumbline/slam/load_shedding.h"
+#include "plumbline/slam/load_control.h"
 #include "plumbline/slam/system.h"
 
 #include <condition_variable>
@@ -28,7 +28,7 @@ namespace plumbline {
 //             are those of inline.
 //   live      Feed only hands the frame over. Two frames may wait; one more, and the oldest of
 //             them is left out (FrameStatus::kSkipped, reason kDropped). Where frames have to wait,
-//             less is done for them (LoadShedding), which their records tell. Not reproducible.
+//             less is done for them (LoadControl), which their records tell. Not reproducible.
 //
 // A live run:
 //
@@ -84,7 +84,7 @@ class Pipeline {
   // `reason`.
   struct Job {
     std::int64_t stamp_ns = 0;
-    std::optional<MeasuredFrame> measured;
+    std::optional<ExtractedFrame> measured;
     std::optional<SensorFrame> raw;
     StageClock clock;  // times a raw frame since its arrival
     Execution::Clock::time_point arrival;
@@ -98,9 +98,9 @@ class Pipeline {
   void Hand(Job job);
   void DropOldest();
   std::size_t Waiting() const;
-  void Do(Job job);
-  Shed Decide(const Job& job);
-  void DoNext(std::unique_lock<std::mutex>& lock);
+  void Process(Job job);
+  LoadLevel Decide(const Job& job);
+  void ProcessNext(std::unique_lock<std::mutex>& lock);
   void WorkUntilStopped();
   void RethrowFailure();
 
@@ -110,7 +110,7 @@ class Pipeline {
   Execution execution_;
   std::optional<std::int64_t> last_stamp_ns_;  // stamp of the last frame that was fed
   // State that only the worker uses.
-  LoadShedding shedding_;
+  LoadControl shedding_;
   int dropped_ = 0;  // frames left out since the last frame that was tracked
   std::mutex mutex_;
   std::condition_variable job_added_, job_taken_;

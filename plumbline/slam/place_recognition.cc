@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/place_recognition.h"
 
-#include "plumbline/loop/close_loop.h"
-#include "plumbline/loop/open_loop.h"
-#include "plumbline/loop/scale_conflict.h"
-#include "plumbline/loop/verify_loop.h"
+#include "plumbline/loop_closing/close_loop.h"
+#include "plumbline/loop_closing/scale_conflict.h"
+#include "plumbline/loop_closing/undo_loop.h"
+#include "plumbline/loop_closing/verify_loop.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/slam/atlas_places.h"
 #include "plumbline/slam/map_join.h"
@@ -46,18 +46,18 @@ Recognition Describe(const Map& map,
 }
 
 // Describes how the correction moved the keyframe in the world.
-void DescribeMotion(const Placement& before, const Placement& after, Recognition& place) {
+void DescribeMotion(const KeyFramePose& before, const KeyFramePose& after, Recognition& place) {
   const Rigid3 motion = Inverse(after.cam_from_world) * before.cam_from_world;
   place.moved =
       (Inverse(after.cam_from_world).translation - Inverse(before.cam_from_world).translation)
           .norm();
   place.turned_deg = LogSo3(motion.rotation).norm() * 180 / std::numbers::pi;
-  place.scale = after.unit / before.unit;
+  place.scale = after.scale / before.scale;
 }
 
 }  // namespace
 
-PlaceRecognition::PlaceRecognition(const ImagingModel& imaging, const LoopOptions& options)
+PlaceRecognition::PlaceRecognition(const CameraAndPyramid& imaging, const LoopOptions& options)
     : imaging_(imaging), options_(options), closer_(imaging, options) {}
 
 void PlaceRecognition::Follow(const Atlas& atlas) { plumbline::Follow(atlas, &places_); }
@@ -137,9 +137,9 @@ std::optional<KeyFrameId> PlaceRecognition::CloseLoop(Atlas& atlas,
   if (!closure) return std::nullopt;
   const LoopEdge& edge = closer_.loops().back();
   Recognition place = Describe(map, id, edge.candidate, edge.evidence);
-  const Placement before = map.PlaceOf(id);
+  const KeyFramePose before = map.PlaceOf(id);
   map.Apply(closure->edit);
-  for (const LoopEdge& wrong : closure->withdrawn) map.Apply(OpenLoop(map, wrong));
+  for (const LoopEdge& wrong : closure->withdrawn) map.Apply(UndoLoop(map, wrong));
   DescribeMotion(before, map.PlaceOf(id), place);
   loops_.push_back(place);
   return edge.candidate;
@@ -167,8 +167,8 @@ std::optional<KeyFrameId> PlaceRecognition::Join(Atlas& atlas,
     Tell(atlas, attempt);
     if (!edge || attempt.waits) continue;
     MapJoin join{Describe(active, id, candidate, edge->evidence), {}, {}};
-    const Placement before = active.PlaceOf(id);
-    const JoinedMaps maps = JoinBy(*edge, atlas);
+    const KeyFramePose before = active.PlaceOf(id);
+    const JoinedMaps maps = JoinMaps(*edge, atlas);
     join.kept = maps.kept;
     join.gone = maps.gone;
     Map& joined = atlas.active();

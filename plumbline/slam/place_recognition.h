@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/loop/loop_closer.h"
+#include "plumbline/loop_closing/loop_closer.h"
 #include "plumbline/map/atlas.h"
 #include "plumbline/place/place_index.h"
 #include "plumbline/slam/map_events.h"
@@ -30,7 +30,7 @@ using PlaceObserver = std::function<void(const Atlas&, const LoopAttempt&)>;
 // Deterministic; for one thread.
 class PlaceRecognition {
  public:
-  PlaceRecognition(const ImagingModel& imaging, const LoopOptions& options);
+  PlaceRecognition(const CameraAndPyramid& imaging, const LoopOptions& options);
 
   // Learns what keyframes have come into the maps since the last call, and forgets those that left.
   void Follow(const Atlas& atlas);
@@ -74,7 +74,7 @@ class PlaceRecognition {
     if (observer_) observer_(atlas, attempt);
   }
 
-  ImagingModel imaging_;
+  CameraAndPyramid imaging_;
   LoopOptions options_;
   PlaceObserver observer_;
   PlaceIndex places_;

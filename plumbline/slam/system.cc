@@ -52,7 +52,7 @@ System::System(const Calibration& calibration,
       imaging_(stages_->imaging),
       mapping_(stages_->mapping),
       tracker_(stages_->tracker),
-      monocular_start_(stages_->monocular_start) {
+      monocular_initialization_(stages_->monocular_initialization) {
   CheckOptions(options_);
   if (imaging_.camera.baseline == 0) {
     if (options_.tracking.reference == TrackingReference::kLastFrame) {
@@ -60,7 +60,8 @@ System::System(const Calibration& calibration,
           "tracking.reference: last_frame needs a camera that measures depth (stereo or RGB-D); "
           "with one camera only local_map works");
     }
-    monocular_start_ = std::make_unique<MonocularStart>(imaging_, options_, front_end_.helper());
+    monocular_initialization_ =
+        std::make_unique<MonocularInitialization>(imaging_, options_, front_end_.helper());
   }
 }
 
@@ -77,8 +78,8 @@ const AdjustedLines& System::adjusted_lines() const { return mapping_.adjusted_l
 const Rectifier& System::rectifier() const { return front_end_.rectifier(); }
 
 std::optional<InitializationCounts> System::initialization_counts() const {
-  if (!monocular_start_) return std::nullopt;
-  return monocular_start_->counts();
+  if (!monocular_initialization_) return std::nullopt;
+  return monocular_initialization_->counts();
 }
 
 void System::CheckStamp(std::int64_t stamp_ns) const {
@@ -87,7 +88,7 @@ void System::CheckStamp(std::int64_t stamp_ns) const {
       fmt::format("expected a frame after {} ns, found one of {} ns", newest_.stamp_ns, stamp_ns));
 }
 
-const FrameRecord& System::Skip(std::int64_t stamp_ns, const std::string& reason, Shed shed) {
+const FrameRecord& System::Skip(std::int64_t stamp_ns, const std::string& reason, LoadLevel shed) {
   Complete();
   CheckStamp(stamp_ns);
   FrameRecord record;
@@ -114,7 +115,7 @@ void System::CheckImages(const SensorFrame& frame) const {
   }
 }
 
-MeasuredFrame System::Measure(SensorFrame frame, StageClock clock, Shed shed) const {
+ExtractedFrame System::Measure(SensorFrame frame, StageClock clock, LoadLevel shed) const {
   CheckImages(frame);
   return front_end_.Measure(std::move(frame), std::move(clock), shed);
 }
@@ -125,7 +126,7 @@ const FrameRecord& System::Process(SensorFrame frame) {
   return newest_;
 }
 
-const FrameRecord& System::Track(MeasuredFrame measured) {
+const FrameRecord& System::Track(ExtractedFrame measured) {
   Complete();
   CheckStamp(measured.stamp_ns);
   if (session_.uuid == Uuid()) session_.uuid = SessionUuid(measured);
@@ -137,7 +138,7 @@ const FrameRecord& System::Track(MeasuredFrame measured) {
   StageClock clock = std::move(measured.clock);
   clock.Done("wait");  // time until tracking began with the frame
 
-  const bool start = monocular_start_ && tracker_.state() == TrackerState::kInitializing;
+  const bool start = monocular_initialization_ && tracker_.state() == TrackerState::kInitializing;
   TrackingResult result =
       start ? OfferToStart(measured, record) : FollowMap(measured, record, clock);
   clock.Done(start ? "initialize" : "track");
@@ -150,7 +151,7 @@ const FrameRecord& System::Track(MeasuredFrame measured) {
   return Keep(std::move(record));
 }
 
-TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, StageClock& clock) {
+TrackingResult System::FollowMap(ExtractedFrame& measured, FrameRecord& record, StageClock& clock) {
   const auto due = mapping_.SnapshotFor(record.id.value);
   clock.Done("map");
   for (const StageTime& time : TakeMappingTimes()) clock.Add(time.stage, time.milliseconds);
@@ -189,12 +190,12 @@ void System::Complete() {
     if (gone) Demote(*gone);
   }
   if (result.leaves_surroundings) {
-    mapping_.Submit(frame, Sighting{map_, result.frame.points, result.frame.lines});
+    mapping_.Submit(frame, UpdateLocalMapRequest{map_, result.frame.points, result.frame.lines});
   }
   Relocalize(result);
-  if (monocular_start_) {
-    if (result.cam_from_world) monocular_start_->Tracked(result);
-    if (result.state == TrackerState::kInitializing) monocular_start_->Restart();
+  if (monocular_initialization_) {
+    if (result.cam_from_world) monocular_initialization_->Tracked(result);
+    if (result.state == TrackerState::kInitializing) monocular_initialization_->Restart();
   }
   clock.Done("after_keyframe");
   const std::vector<StageTime> times = clock.Stages();
@@ -223,8 +224,8 @@ std::shared_ptr<const MapSnapshot> System::TakeRelocalized(FrameId frame) {
   tracker_.FollowFrom(*outcome->found, *outcome->snapshot);
   mapping_.Use(outcome->snapshot);
   if (outcome->snapshot->map != map_ && !read_only_) {
-    mapping_.Submit(frame.value, MapReturn{outcome->snapshot->map, outcome->found->keyframe});
-    if (monocular_start_) monocular_start_->MapLeft();
+    mapping_.Submit(frame.value, SwitchMap{outcome->snapshot->map, outcome->found->keyframe});
+    if (monocular_initialization_) monocular_initialization_->MapLeft();
   }
   relocalizations_.push_back({outcome->found->frame.id,
                               outcome->found->keyframe,
@@ -292,8 +293,8 @@ SessionId System::session_id() const {
 
 // Offers a frame of a single camera that has no map yet to the start of one. Most frames start
 // none.
-TrackingResult System::OfferToStart(const MeasuredFrame& measured, FrameRecord& record) {
-  const InitializationResult start = monocular_start_->Offer(record.id, measured);
+TrackingResult System::OfferToStart(const ExtractedFrame& measured, FrameRecord& record) {
+  const InitializationResult start = monocular_initialization_->Offer(record.id, measured);
   if (start.map) return StartFrom(*start.map, record);
   record.status = StatusWithoutPose();
   record.reason = NameOf(start.wait);
@@ -310,15 +311,15 @@ TrackingResult System::OfferToStart(const MeasuredFrame& measured, FrameRecord& 
 // Starts a map. Its newest view is the present frame; the other views are earlier frames, which get
 // their poses now.
 TrackingResult System::StartFrom(const InitialMap& initial, FrameRecord& record) {
-  MapStart start =
-      MakeMapStart(initial, imaging_, WorldFromFirstCamera(rectifier()), tracker_.next_keyframe());
+  InitialMapEdit start = MakeInitialMapEdit(
+      initial, imaging_, WorldFromFirstCamera(rectifier()), tracker_.next_keyframe());
   for (MapChange& change : start.edit) {
     if (auto* added = std::get_if<edit::AddKeyFrame>(&change))
       added->keyframe.session = session_id();
   }
   mapping_.Submit(record.id.value, start);
   map_ = MapId{next_map_++};
-  monocular_start_->MapStarted(map_, start);
+  monocular_initialization_->MapStarted(map_, start);
   TrackingResult result =
       tracker_.StartFrom(*mapping_.SnapshotFor(record.id.value), LastVelocity(initial));
   RecordTracking(result, record);
@@ -337,9 +338,10 @@ TrackingResult System::StartFrom(const InitialMap& initial, FrameRecord& record)
 
 // Undoes a keyframe that was given up. It was made by a recent frame, and only that frame and later
 // ones refer to it, which bounds the search.
-void System::Demote(const DemotedKeyFrame& gone) {
-  tracker_.Rehang(gone.id, gone.parent, gone.from_parent);
-  if (monocular_start_) monocular_start_->Rehang(gone.id, gone.parent, gone.from_parent);
+void System::Demote(const DroppedKeyFrame& gone) {
+  tracker_.ReparentPoses(gone.id, gone.parent, gone.from_parent);
+  if (monocular_initialization_)
+    monocular_initialization_->ReparentPoses(gone.id, gone.parent, gone.from_parent);
   const auto made = static_cast<std::size_t>(gone.frame.value);
   for (std::size_t i = frames_.size(); i-- > made;) {
     if (frames_.ReferenceOf(i) != gone.id && i != made) continue;
@@ -390,7 +392,7 @@ std::vector<StageTime> System::TakeMappingTimes() {
 // refer to its parent. Marks them as lost where there is none, or where tracking failed before it
 // handed the keyframe over.
 void System::LoseFramesNotMapped() {
-  for (const DemotedKeyFrame& gone : mapping_.NotMapped()) Demote(gone);
+  for (const DroppedKeyFrame& gone : mapping_.NotMapped()) Demote(gone);
   const auto has_place = [&](const FrameRecord& record) {
     const Map* map = atlas().Find(atlas().Current(record.map));
     return map != nullptr && map->Knows(record.reference);
@@ -410,11 +412,11 @@ void System::CopyMaps(std::function<void(SavedAtlas)> take) {
   const bool as_loaded = loaded_ && read_only_;  // as Context() has it
   mapping_.Submit(
       newest_.id.value,
-      Visit{[this,
-             as_loaded,
-             context = as_loaded ? *loaded_ : ContextWithoutMaps(),
-             take = std::move(take)](
-                const Atlas& atlas, const LocalMapper& mapper, const PlaceRecognition&) {
+      MapReader{[this,
+                 as_loaded,
+                 context = as_loaded ? *loaded_ : ContextWithoutMaps(),
+                 take = std::move(take)](
+                    const Atlas& atlas, const LocalMapper& mapper, const PlaceRecognition&) {
         SavedAtlas copy{atlas, context};
         if (!as_loaded) AddMaps(atlas, mapper.state(), copy.context);
         mapping_.MoveFirstKeyFramesBack(copy.atlas);
@@ -429,12 +431,12 @@ SavedAtlas System::CopyMaps() {
   return copied;
 }
 
-void System::LookAtMaps(std::function<void(const Atlas&, const MapEvents&)> look) {
+void System::ReadMaps(std::function<void(const Atlas&, const MapEvents&)> look) {
   Complete();
   mapping_.Submit(
       newest_.id.value,
-      Visit{[look = std::move(look)](
-                const Atlas& atlas, const LocalMapper&, const PlaceRecognition& places) {
+      MapReader{[look = std::move(look)](
+                    const Atlas& atlas, const LocalMapper&, const PlaceRecognition& places) {
         look(atlas, {places.loops(), places.joins(), {}});
       }});
 }
@@ -455,8 +457,8 @@ void System::Finish(const StopCheck& stop) {
   if (failure) std::rethrow_exception(failure);
   const std::vector<StageTime> times = TakeMappingTimes();
   if (!frames_.empty()) frames_.AddTimes(times);
-  if (!monocular_start_) return;
-  for (const EarlierFrame& earlier : monocular_start_->Locate(atlas(), stop)) {
+  if (!monocular_initialization_) return;
+  for (const EarlierFrame& earlier : monocular_initialization_->Locate(atlas(), stop)) {
     frames_.Change(static_cast<std::size_t>(earlier.id.value), [&](FrameRecord& record) {
       record.status = FrameStatus::kTracked;
       record.reason.clear();
@@ -488,7 +490,7 @@ Trajectory System::FinalTrajectory(MapId map) const {
     if (!owner.Knows(record.reference)) continue;  // Finish failed before it lost the frame
     trajectory.push_back(
         {record.stamp_ns,
-         AsDelivered(PoseBeside(owner.PlaceOf(record.reference), record.from_reference))});
+         AsDelivered(ComposePose(owner.PlaceOf(record.reference), record.from_reference))});
   }
   return trajectory;
 }

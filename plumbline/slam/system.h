@@ -13,11 +13,11 @@
 #include "plumbline/mapping/adjusted_lines.h"
 #include "plumbline/mapping/mapped_line.h"
 #include "plumbline/slam/execution.h"
+#include "plumbline/slam/extracted_frame.h"
 #include "plumbline/slam/frame_log.h"
+#include "plumbline/slam/load_level.h"
 #include "plumbline/slam/map_events.h"
-#include "plumbline/slam/measured_frame.h"
 #include "plumbline/slam/options.h"
-#include "plumbline/slam/shed.h"
 #include "plumbline/slam/stage_clock.h"
 
 #include <cstdint>
@@ -30,8 +30,8 @@
 
 namespace plumbline {
 
-struct DemotedKeyFrame;
-struct ImagingModel;
+struct DroppedKeyFrame;
+struct CameraAndPyramid;
 struct InitialMap;
 struct InitializationCounts;
 struct LoopAttempt;
@@ -41,7 +41,7 @@ struct TrackingResult;
 struct UnfinishedFrame;
 class FrontEnd;
 class MappingStage;
-class MonocularStart;
+class MonocularInitialization;
 class Tracker;
 
 // What Process leaves of a frame beside its record, for display.
@@ -104,13 +104,15 @@ class System {
   const FrameRecord& Process(SensorFrame frame);
   // Does the part of the work that needs no earlier frame, in any thread; see FrontEnd. Throws
   // InputError when an image is missing or has another size than the calibration says.
-  MeasuredFrame Measure(SensorFrame frame, StageClock clock = {}, Shed shed = Shed::kNothing) const;
+  ExtractedFrame Measure(SensorFrame frame,
+                         StageClock clock = {},
+                         LoadLevel shed = LoadLevel::kNothing) const;
   // Throws InputError where an image is missing that the calibration speaks of. Measure calls it.
   void CheckImages(const SensorFrame& frame) const;
   // Tracks a frame that was measured before and returns what became of it; valid until the next
   // frame. The pose is returned as soon as it is known: Complete does what the frame leaves to do
   // for the map. Throws InputError when the frame is no later than the one before.
-  const FrameRecord& Track(MeasuredFrame frame);
+  const FrameRecord& Track(ExtractedFrame frame);
   // Does what the last tracked frame leaves to do: looks for its lines in the right image where
   // landmarks are to be made of them, hands a keyframe to mapping, asks for the place of a lost
   // camera. A second call does nothing. Functions that need it done (the next frame, Finish, a
@@ -120,9 +122,9 @@ class System {
   // InputError when it is no later than the one before.
   const FrameRecord& Skip(std::int64_t stamp_ns,
                           const std::string& reason,
-                          Shed shed = Shed::kNothing);
+                          LoadLevel shed = LoadLevel::kNothing);
   // Returns the number of tasks that wait for mapping, most of them keyframes. CopyMaps and
-  // LookAtMaps do not count.
+  // ReadMaps do not count.
   std::size_t TasksWaiting() const;
   // Does the next task of mapping; returns false when none waits. For live runs without threads
   // (Execution).
@@ -138,13 +140,13 @@ class System {
   // Calls `look` with the maps and with the loops and joins so far, once mapping has done what was
   // submitted so far. The call happens in the thread that maps. Changes no result. To be called in
   // the thread that tracks.
-  void LookAtMaps(std::function<void(const Atlas&, const MapEvents&)> look);
+  void ReadMaps(std::function<void(const Atlas&, const MapEvents&)> look);
 
   // Completes the mapping of all frames so far. Frames that came before a monocular map, or while
-  // it was young, are located in the finished map (MonocularStart). Frames from before the map get
-  // a pose, but no causal one; those of a young map keep only their causal pose and get the rest
-  // anew. `stop` cuts short the adjustment of the whole maps and this search; what was not reached
-  // stays as it is.
+  // it was young, are located in the finished map (MonocularInitialization). Frames from before the
+  // map get a pose, but no causal one; those of a young map keep only their causal pose and get the
+  // rest anew. `stop` cuts short the adjustment of the whole maps and this search; what was not
+  // reached stays as it is.
   //
   // Rethrows what mapping threw. Then the maps are as mapping left them, frames that refer to a
   // keyframe that mapping did not get to are lost (reason kNotMapped), and the rest holds.
@@ -217,7 +219,7 @@ class System {
 
  private:
   // Returns the id of the session that begins with this frame.
-  Uuid SessionUuid(const MeasuredFrame& first) const;
+  Uuid SessionUuid(const ExtractedFrame& first) const;
   // Returns the part of Context() that the thread that tracks knows at any time.
   AtlasContext ContextWithoutMaps() const;
   Rigid3 AsDelivered(const Rigid3& rectified_cam_from_world) const;
@@ -226,13 +228,13 @@ class System {
   void Relocalize(const TrackingResult& result);
   // Returns the number of this run among the runs that made the maps.
   SessionId session_id() const;
-  TrackingResult FollowMap(MeasuredFrame& measured, FrameRecord& record, StageClock& clock);
+  TrackingResult FollowMap(ExtractedFrame& measured, FrameRecord& record, StageClock& clock);
   void CompleteRightLines(UnfinishedFrame& unfinished, StageClock& clock);
   // Returns the times of the steps of mapping that ended since the last call.
   std::vector<StageTime> TakeMappingTimes();
-  TrackingResult OfferToStart(const MeasuredFrame& measured, FrameRecord& record);
+  TrackingResult OfferToStart(const ExtractedFrame& measured, FrameRecord& record);
   TrackingResult StartFrom(const InitialMap& initial, FrameRecord& record);
-  void Demote(const DemotedKeyFrame& gone);
+  void Demote(const DroppedKeyFrame& gone);
   FrameStatus StatusWithoutPose() const;
   void RecordTracking(const TrackingResult& result, FrameRecord& record);
   const Map& MapOf(MapId id) const;              // throws InputError where there is none
@@ -246,10 +248,10 @@ class System {
   // The stages, behind a pointer, so that this header does not bring theirs along.
   std::unique_ptr<SystemStages> stages_;
   FrontEnd& front_end_;
-  ImagingModel& imaging_;
+  CameraAndPyramid& imaging_;
   MappingStage& mapping_;
   Tracker& tracker_;
-  std::unique_ptr<MonocularStart>& monocular_start_;
+  std::unique_ptr<MonocularInitialization>& monocular_initialization_;
   MapId map_;  // map that is tracked against
   std::int64_t next_map_ = 0;
   KeyFrameId first_keyframe_{0};  // first id of this system's own keyframes

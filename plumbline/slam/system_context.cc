@@ -8,7 +8,7 @@
 
 namespace plumbline {
 
-Uuid System::SessionUuid(const MeasuredFrame& first) const {
+Uuid System::SessionUuid(const ExtractedFrame& first) const {
   ByteWriter contents;
   const Eigen::Quaterniond turn = rectifier().rectified_left_from_left();
   const std::string options = ResultOptionsYaml(options_);

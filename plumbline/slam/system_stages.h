@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/projection_search.h"
 #include "plumbline/geometry/calibration.h"
 #include "plumbline/geometry/se3.h"
 #include "plumbline/image/pyramid.h"
 #include "plumbline/image/rectify.h"
+#include "plumbline/matching/projection_search.h"
 #include "plumbline/slam/execution.h"
 #include "plumbline/slam/front_end.h"
+#include "plumbline/slam/load_level.h"
 #include "plumbline/slam/mapping_stage.h"
-#include "plumbline/slam/monocular_start.h"
+#include "plumbline/slam/monocular_initialization.h"
 #include "plumbline/slam/options.h"
-#include "plumbline/slam/shed.h"
 #include "plumbline/tracking/tracker.h"
 
 #include <memory>
@@ -27,10 +27,11 @@ struct SystemStages {
                const Execution& execution);
 
   FrontEnd front_end;
-  ImagingModel imaging;
+  CameraAndPyramid imaging;
   MappingStage mapping;
   Tracker tracker;
-  std::unique_ptr<MonocularStart> monocular_start;  // null where depth is measured
+  std::unique_ptr<MonocularInitialization>
+      monocular_initialization;  // null where depth is measured
 };
 
 // Returns the pose of the tracker's camera, which is the rectified one, at a map's first frame. The
@@ -40,8 +41,8 @@ Rigid3 WorldFromFirstCamera(const Rectifier& rectifier);
 // A frame whose pose was returned, and which still leaves something to do for the map.
 struct UnfinishedFrame {
   TrackingResult result;
-  Shed shed = Shed::kNothing;
-  std::shared_ptr<const ImagePyramid> left_pyramid = nullptr;  // MeasuredFrame::left_pyramid
+  LoadLevel shed = LoadLevel::kNothing;
+  std::shared_ptr<const ImagePyramid> left_pyramid = nullptr;  // ExtractedFrame::left_pyramid
 };
 
 }  // namespace plumbline

@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/tracking/frame_location.h"
 
-#include "plumbline/tracking/frame_association.h"
+#include "plumbline/tracking/landmark_matches.h"
 
 namespace plumbline {
 
-std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
+std::optional<LocatedFrame> LocateFrame(const CameraAndPyramid& imaging,
                                         const PoseEstimator& estimator,
-                                        const IndexedFeatures& image,
+                                        const FrameFeatures& image,
                                         const Rigid3& predicted,
                                         const MapSnapshot& snapshot,
                                         double max_pose_sigma) {
   for (const double factor : {1.0, kWideFactor}) {
-    FrameAssociation association(image.features.points.size(), image.features.lines.size());
+    LandmarkMatches association(image.features.points.size(), image.features.lines.size());
     LocatedFrame located;
     const auto accepted = [&](const Rigid3& initial) {
       located.counts.matched_points = association.matches.Points();

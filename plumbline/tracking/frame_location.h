@@ -23,9 +23,9 @@ struct LocatedFrame {
 // searched again with the usual radius, and the pose is estimated again. Both poses must be
 // accepted as tracking accepts one without prediction (TrackingOptions::max_pose_sigma). Returns
 // nullopt where the frame is not found.
-std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
+std::optional<LocatedFrame> LocateFrame(const CameraAndPyramid& imaging,
                                         const PoseEstimator& estimator,
-                                        const IndexedFeatures& image,
+                                        const FrameFeatures& image,
                                         const Rigid3& predicted,
                                         const MapSnapshot& snapshot,
                                         double max_pose_sigma);

@@ -44,7 +44,7 @@ void CountShared(const std::vector<LandmarkId>& of_keyframe,
 }  // namespace
 
 KeyFrameSituation SituationOf(const Frame& frame,
-                              const FrameAssociation& association,
+                              const LandmarkMatches& association,
                               const MapSnapshot& snapshot,
                               int frames_since_keyframe,
                               double feature_share,

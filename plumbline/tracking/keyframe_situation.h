@@ -4,8 +4,8 @@
 
 #include "plumbline/map/frame.h"
 #include "plumbline/map/snapshot.h"
-#include "plumbline/tracking/frame_association.h"
-#include "plumbline/tracking/keyframe_policy.h"
+#include "plumbline/tracking/keyframe_decision.h"
+#include "plumbline/tracking/landmark_matches.h"
 
 namespace plumbline {
 
@@ -17,7 +17,7 @@ namespace plumbline {
 //   feature_share  share of the usual number of features that the frame was measured with
 //   monocular      no depth is measured
 KeyFrameSituation SituationOf(const Frame& frame,
-                              const FrameAssociation& association,
+                              const LandmarkMatches& association,
                               const MapSnapshot& snapshot,
                               int frames_since_keyframe,
                               double feature_share,

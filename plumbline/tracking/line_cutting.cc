@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/tracking/line_cutting.h"
 
-#include "plumbline/association/line_information.h"
-#include "plumbline/association/uncertain_line.h"
 #include "plumbline/base/chi2.h"
-#include "plumbline/cutting/choose_features.h"
-#include "plumbline/cutting/cut_lines.h"
+#include "plumbline/line_cutting/choose_features.h"
+#include "plumbline/line_cutting/cut_lines.h"
+#include "plumbline/matching/line_information.h"
+#include "plumbline/matching/uncertain_line.h"
 #include "plumbline/optimization/residuals.h"
 #include "plumbline/optimization/uncertain_point.h"
 

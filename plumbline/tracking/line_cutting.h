@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/line_options.h"
-#include "plumbline/cutting/cutting_problem.h"
 #include "plumbline/geometry/trimming.h"
+#include "plumbline/line_cutting/cutting_problem.h"
 #include "plumbline/map/landmarks.h"
+#include "plumbline/matching/line_options.h"
 #include "plumbline/optimization/problem.h"
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/tracking/motion_model.h"
 
-#include "plumbline/optimization/pose_sigma.h"
+#include "plumbline/optimization/pose_uncertainty.h"
 
 namespace plumbline {
 namespace {

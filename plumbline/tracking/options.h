@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/base/options.h"
-#include "plumbline/tracking/keyframe_policy.h"
+#include "plumbline/tracking/keyframe_decision.h"
 
 #include <array>
 #include <type_traits>
@@ -20,7 +20,7 @@ constexpr auto EnumNames(std::type_identity<TrackingReference>) {
 
 struct TrackingOptions {
   TrackingReference reference = TrackingReference::kLocalMap;
-  // A pose is accepted when its deviations (PoseSigma) are at most this.
+  // A pose is accepted when its deviations (PoseUncertainty) are at most this.
   double max_pose_sigma = 0.02;
   // A pose that is known this well, from enough_inliers inliers, needs no landmarks of uncertain
   // depth.

@@ -23,11 +23,11 @@ struct MatchedProblem {
   std::vector<CutCandidate> cut_candidates;  // one for each line
 };
 
-void AddPoints(const Features& features, const FrameAssociation& association, MatchedProblem& out) {
+void AddPoints(const Features& features, const LandmarkMatches& association, MatchedProblem& out) {
   for (std::size_t i = 0; i < association.matches.point_of_feature.size(); ++i) {
     const int match = association.matches.point_of_feature[i];
     if (match < 0) continue;
-    const CandidatePoint& point = association.points[static_cast<std::size_t>(match)];
+    const PointCandidate& point = association.points[static_cast<std::size_t>(match)];
     out.problem.points.push_back(
         {point.model.position, MeasurePoint(features, i), point.covariance});
     out.point_feature.push_back(i);
@@ -49,12 +49,12 @@ void AddLine(const CutCandidate& candidate,
 
 void AddLines(const Features& features,
               const LineOptions& lines,
-              const FrameAssociation& association,
+              const LandmarkMatches& association,
               MatchedProblem& out) {
   for (std::size_t i = 0; i < association.matches.line_of_feature.size(); ++i) {
     const int match = association.matches.line_of_feature[i];
     if (match < 0) continue;
-    const CandidateLine& candidate = association.lines[static_cast<std::size_t>(match)];
+    const LineCandidate& candidate = association.lines[static_cast<std::size_t>(match)];
     CutCandidate cut{&candidate.model, features.lines[i].sigma_px, association.made_from};
     if (candidate.id.valid()) cut.made_from.reset();
     AddLine(cut, MeasureLeftLine(features, i, lines.weights()), i, lines, out);
@@ -69,7 +69,7 @@ MatchedProblem MakeProblem(const RectifiedCamera& camera,
                            const Features& features,
                            const Rigid3& cam_from_world,
                            const LineOptions& lines,
-                           const FrameAssociation& association) {
+                           const LandmarkMatches& association) {
   MatchedProblem matched;
   matched.problem.camera = camera;
   matched.problem.cam_from_world = cam_from_world;
@@ -82,7 +82,7 @@ MatchedProblem MakeProblem(const RectifiedCamera& camera,
 void Keep(const std::vector<bool>& points,
           const std::vector<bool>& lines,
           const MatchedProblem& matched,
-          FrameAssociation& association) {
+          LandmarkMatches& association) {
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (!points[k]) association.matches.point_of_feature[matched.point_feature[k]] = -1;
   }
@@ -128,7 +128,7 @@ PoseOnlyResult SolveWithCutLines(const MatchedProblem& matched,
 }
 
 // Returns the median depth of all matched points and of the middles of all matched lines.
-double SceneDepth(const FrameAssociation& association, const Rigid3& cam_from_world) {
+double SceneDepth(const LandmarkMatches& association, const Rigid3& cam_from_world) {
   std::vector<double> depths;
   for (const int match : association.matches.point_of_feature) {
     if (match < 0) continue;
@@ -148,7 +148,7 @@ double SceneDepth(const FrameAssociation& association, const Rigid3& cam_from_wo
 PoseEstimate PoseEstimator::Estimate(const Features& features,
                                      const Rigid3& initial,
                                      const PosePrior& prior,
-                                     FrameAssociation& association) const {
+                                     LandmarkMatches& association) const {
   MatchedProblem matched = MakeProblem(camera_, features, initial, lines_, association);
   matched.problem.prior = prior;
   const bool all_whole = cutting_.method == CuttingMethod::kNone && cutting_.budget == 0;
@@ -170,7 +170,7 @@ PoseEstimate PoseEstimator::Estimate(const Features& features,
 void PoseEstimator::DropDisagreeing(const Features& features,
                                     const Rigid3& cam_from_world,
                                     double gate_scale,
-                                    FrameAssociation& association) const {
+                                    LandmarkMatches& association) const {
   const MatchedProblem matched =
       MakeProblem(camera_, features, cam_from_world, lines_, association);
   Keep(PointsThatFit(matched.problem, cam_from_world, gate_scale),

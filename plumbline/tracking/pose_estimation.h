@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/line_options.h"
-#include "plumbline/cutting/cutting_problem.h"
+#include "plumbline/line_cutting/cutting_problem.h"
 #include "plumbline/map/frame.h"
-#include "plumbline/optimization/pose_only.h"
-#include "plumbline/optimization/pose_sigma.h"
-#include "plumbline/tracking/frame_association.h"
+#include "plumbline/matching/line_options.h"
+#include "plumbline/optimization/pose_optimization.h"
+#include "plumbline/optimization/pose_uncertainty.h"
+#include "plumbline/tracking/landmark_matches.h"
 
 namespace plumbline {
 
@@ -18,7 +18,7 @@ struct PoseEstimate {
   Matrix6d information = Matrix6d::Zero();
   double scene_depth = 0;  // median depth of the inliers
   // Deviation of the pose by inliers and prior together; infinite where these do not fix the pose.
-  PoseSigma sigma;
+  PoseUncertainty sigma;
   int inlier_points = 0;
   int inlier_lines = 0;
   bool converged = false;
@@ -48,14 +48,14 @@ class PoseEstimator {
   PoseEstimate Estimate(const Features& features,
                         const Rigid3& initial,
                         const PosePrior& prior,
-                        FrameAssociation& association) const;
+                        LandmarkMatches& association) const;
 
   // Removes the matches that do not agree with a pose: those with a chi2 above gate_scale times its
   // limit of 95 %.
   void DropDisagreeing(const Features& features,
                        const Rigid3& cam_from_world,
                        double gate_scale,
-                       FrameAssociation& association) const;
+                       LandmarkMatches& association) const;
 
   const LineOptions& lines() const { return lines_; }
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/tracking/pose_search.h"
 
-#include "plumbline/association/landmark_from_frame.h"
-#include "plumbline/association/line_matching.h"
 #include "plumbline/features/match_lines.h"
 #include "plumbline/features/match_points.h"
+#include "plumbline/matching/landmark_from_frame.h"
+#include "plumbline/matching/line_matching.h"
 #include "plumbline/solvers/absolute_pose.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ FrameCounts CountsOf(const FrameMatches& matches) {
   return {.matched_points = matches.Points(), .matched_lines = matches.Lines()};
 }
 
-std::vector<PointInImage> MatchedPoints(const Frame& frame, const FrameAssociation& association) {
+std::vector<PointInImage> MatchedPoints(const Frame& frame, const LandmarkMatches& association) {
   std::vector<PointInImage> result;
   for (std::size_t i = 0; i < frame.points.size(); ++i) {
     const int match = association.matches.point_of_feature[i];
@@ -79,23 +79,23 @@ bool MoreThanChance(int agreeing, int matches) {
          std::min(matches, kFitted) + mean + kDeviations * std::sqrt(mean * (1 - kByChance));
 }
 
-PoseSearch::PoseSearch(const ImagingModel& imaging,
+PoseSearch::PoseSearch(const CameraAndPyramid& imaging,
                        const TrackingOptions& options,
                        const PoseEstimator& estimator)
     : imaging_(imaging), options_(options), estimator_(estimator) {}
 
 // Collects what the last frame showed: its landmarks as they are in the snapshot, and new ones from
 // its depths, placed by the pose that the frame has in the snapshot.
-FrameAssociation PoseSearch::LastLandmarks(const LastFrame& last,
-                                           const MapSnapshot& snapshot,
-                                           const Frame& frame,
-                                           Depths depths) const {
+LandmarkMatches PoseSearch::LastLandmarks(const LastFrame& last,
+                                          const MapSnapshot& snapshot,
+                                          const Frame& frame,
+                                          Depths depths) const {
   const bool known_only = depths == Depths::kKnown;
   const double point_sigma = known_only ? kMaxDepthSigma : kWorstDepthSigma;
   const double line_sigma = known_only ? kMaxLineDepthSigma : kWorstDepthSigma;
-  FrameAssociation result(frame.points.size(), frame.lines.size());
+  LandmarkMatches result(frame.points.size(), frame.lines.size());
   result.made_from = last.frame.cam_from_world;
-  const FrameAssociation& before = last.association;
+  const LandmarkMatches& before = last.association;
   for (std::size_t i = 0; i < last.frame.points.size(); ++i) {
     const auto* known = InSnapshot(before.points, before.matches.point_of_feature[i], snapshot);
     auto point = PointOf(known, last.frame, i, point_sigma);
@@ -122,7 +122,7 @@ std::optional<PoseEstimate> PoseSearch::SearchLast(const Frame& frame,
                                                    const LastFrame& last,
                                                    const MapSnapshot& snapshot,
                                                    const LastSearch& how,
-                                                   FrameAssociation& association) const {
+                                                   LandmarkMatches& association) const {
   association = LastLandmarks(last, snapshot, frame, how.depths);
   MatchCandidates(
       imaging_, *frame.indexed, predicted.cam_from_world, FirstSearch(how.factor), association);
@@ -138,7 +138,7 @@ std::optional<PoseEstimate> PoseSearch::FromPrediction(const Frame& frame,
                                                        const PosePrior& predicted,
                                                        const LastFrame& last,
                                                        const MapSnapshot& snapshot,
-                                                       FrameAssociation& association) const {
+                                                       LandmarkMatches& association) const {
   std::optional<PoseEstimate> best;
   for (const LastSearch& how : {LastSearch{Depths::kKnown, 1},
                                 LastSearch{Depths::kUncertain, 1},
@@ -152,7 +152,7 @@ std::optional<PoseEstimate> PoseSearch::FromPrediction(const Frame& frame,
     if (best && best->sigma.AtMost(limit) && many) break;
     // One camera measures no depths.
     if (how.depths == Depths::kUncertain && imaging_.camera.baseline == 0) continue;
-    FrameAssociation found;
+    LandmarkMatches found;
     const auto estimate = SearchLast(frame, predicted, last, snapshot, how, found);
     if (!estimate || (best && estimate->Inliers() <= best->Inliers())) continue;
     best = estimate;
@@ -161,33 +161,33 @@ std::optional<PoseEstimate> PoseSearch::FromPrediction(const Frame& frame,
   return best;
 }
 
-std::optional<CandidatePoint> PoseSearch::PointOf(const SnapshotPoint* known,
+std::optional<PointCandidate> PoseSearch::PointOf(const SnapshotPoint* known,
                                                   const Frame& frame,
                                                   std::size_t feature,
                                                   double max_relative_sigma) const {
-  if (known != nullptr) return CandidatePoint{.id = known->id, .model = *known};
+  if (known != nullptr) return PointCandidate{.id = known->id, .model = *known};
   const auto point = PointFromFrame(imaging_.camera, frame, feature, max_relative_sigma);
   if (!point) return std::nullopt;
-  CandidatePoint candidate{.id = {}, .model = *point};
+  PointCandidate candidate{.id = {}, .model = *point};
   if (options_.point_covariance) {
     candidate.covariance = PointCovarianceFromFrame(imaging_.camera, frame, feature);
   }
   return candidate;
 }
 
-std::optional<CandidateLine> PoseSearch::LineOf(const SnapshotLine* known,
+std::optional<LineCandidate> PoseSearch::LineOf(const SnapshotLine* known,
                                                 const Frame& frame,
                                                 std::size_t feature,
                                                 double max_relative_sigma) const {
-  if (known != nullptr) return CandidateLine{known->id, *known};
+  if (known != nullptr) return LineCandidate{known->id, *known};
   const auto line = LineFromFrame(imaging_.camera, frame, feature, max_relative_sigma);
-  return line ? std::optional(CandidateLine{LineId{}, *line}) : std::nullopt;
+  return line ? std::optional(LineCandidate{LineId{}, *line}) : std::nullopt;
 }
 
-FrameAssociation PoseSearch::MatchAppearance(const Frame& frame,
-                                             const Frame& reference,
-                                             const MapSnapshot& snapshot) const {
-  FrameAssociation result(frame.points.size(), frame.lines.size());
+LandmarkMatches PoseSearch::MatchAppearance(const Frame& frame,
+                                            const Frame& reference,
+                                            const MapSnapshot& snapshot) const {
+  LandmarkMatches result(frame.points.size(), frame.lines.size());
   const auto point_matches = MatchPoints(
       reference.features().points, frame.features().points, {.max_distance = 60, .ratio = 0.8});
   for (const PointMatch& match : point_matches) {
@@ -216,7 +216,7 @@ FrameAssociation PoseSearch::MatchAppearance(const Frame& frame,
 std::optional<PoseEstimate> PoseSearch::FromAppearance(const Frame& frame,
                                                        const LastFrame& last,
                                                        const MapSnapshot& snapshot,
-                                                       FrameAssociation& association,
+                                                       LandmarkMatches& association,
                                                        FrameCounts& counts) const {
   constexpr double kMaxErrorPx = 4;
   // Wide, because the pose that most points agree with is not the final one.
@@ -241,26 +241,26 @@ std::optional<PoseEstimate> PoseSearch::FromAppearance(const Frame& frame,
 PoseAttempt PoseSearch::WithLastFrame(const Frame& frame,
                                       const PoseEstimate& first,
                                       const PosePrior& prior,
-                                      FrameAssociation found) const {
+                                      LandmarkMatches found) const {
   PoseAttempt attempt{std::move(found), {}, {}, {}};
-  FrameAssociation& association = attempt.association;
+  LandmarkMatches& association = attempt.association;
   MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, {}, association);
   attempt.counts = CountsOf(association.matches);
   attempt.pose = estimator_.Estimate(frame.features(), first.cam_from_world, prior, association);
   return attempt;
 }
 
-PoseEstimate PoseSearch::EstimateNotOutvoted(const Frame& frame,
-                                             const Rigid3& initial,
-                                             const PosePrior& prior,
-                                             const MapSnapshot& snapshot,
-                                             FrameAssociation& association) const {
+PoseEstimate PoseSearch::EstimateFavoringEstablished(const Frame& frame,
+                                                     const Rigid3& initial,
+                                                     const PosePrior& prior,
+                                                     const MapSnapshot& snapshot,
+                                                     LandmarkMatches& association) const {
   // Smallest share of the established landmarks that a pose must keep.
   constexpr double kOutvoted = 0.95;
   const int views =
       std::min(options_.established_views, static_cast<int>(snapshot.cam_from_world.size()));
   const FrameMatches offered = association.matches;
-  const FrameMatches young = TakeOutYoung(snapshot, views, association);
+  const FrameMatches young = SplitMatches(snapshot, views, association);
   if (young.All() == 0) return estimator_.Estimate(frame.features(), initial, prior, association);
   const FrameMatches established = std::exchange(association.matches, offered);
   PoseEstimate of_all = estimator_.Estimate(frame.features(), initial, prior, association);
@@ -274,7 +274,7 @@ PoseEstimate PoseSearch::EstimateNotOutvoted(const Frame& frame,
   }
   association.matches = young;
   estimator_.DropDisagreeing(frame.features(), of_established.cam_from_world, 1, association);
-  PutBack(established, association.matches);
+  MergeMatches(established, association.matches);
   return estimator_.Estimate(frame.features(), of_established.cam_from_world, prior, association);
 }
 
@@ -282,18 +282,19 @@ PoseAttempt PoseSearch::WithLocalMap(const Frame& frame,
                                      const PoseEstimate& first,
                                      const PosePrior& prior,
                                      const MapSnapshot& snapshot,
-                                     const FrameAssociation& found,
+                                     const LandmarkMatches& found,
                                      const ProjectionSearchOptions& windows) const {
   // Landmarks of the map are searched before those made on the spot from the last frame. The latter
   // know the pose from one frame only, and would keep landmarks of the map from being found.
-  PoseAttempt attempt{FrameAssociation(frame.points.size(), frame.lines.size()), {}, {}, {}};
-  FrameAssociation& association = attempt.association;
+  PoseAttempt attempt{LandmarkMatches(frame.points.size(), frame.lines.size()), {}, {}, {}};
+  LandmarkMatches& association = attempt.association;
   CopyMatches(found, true, association);
   attempt.expected =
       MatchSnapshot(imaging_, *frame.indexed, first.cam_from_world, windows, snapshot, association);
   CopyMatches(found, false, association);
   attempt.counts = CountsOf(association.matches);
-  attempt.pose = EstimateNotOutvoted(frame, first.cam_from_world, prior, snapshot, association);
+  attempt.pose =
+      EstimateFavoringEstablished(frame, first.cam_from_world, prior, snapshot, association);
   return attempt;
 }
 

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/measurements.h"
-#include "plumbline/association/projection_search.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/snapshot.h"
-#include "plumbline/tracking/frame_association.h"
+#include "plumbline/matching/measurements.h"
+#include "plumbline/matching/projection_search.h"
 #include "plumbline/tracking/frame_counts.h"
+#include "plumbline/tracking/landmark_matches.h"
 #include "plumbline/tracking/options.h"
 #include "plumbline/tracking/pose_estimation.h"
 
@@ -18,12 +18,12 @@ namespace plumbline {
 // The last frame that had a pose, moved with the map as that is now, and the landmarks it showed.
 struct LastFrame {
   Frame frame;
-  FrameAssociation association;
+  LandmarkMatches association;
 };
 
 // A pose that was found for a frame, with the matches that it was found by.
 struct PoseAttempt {
-  FrameAssociation association;
+  LandmarkMatches association;
   // Landmarks of the map that should be visible; empty where the map was not searched.
   ExpectedLandmarks expected;
   FrameCounts counts;  // counts of the matches
@@ -52,7 +52,7 @@ bool MoreThanChance(int agreeing, int matches);
 // map. Nothing is kept from frame to frame.
 class PoseSearch {
  public:
-  PoseSearch(const ImagingModel& imaging,
+  PoseSearch(const CameraAndPyramid& imaging,
              const TrackingOptions& options,
              const PoseEstimator& estimator);
 
@@ -64,20 +64,20 @@ class PoseSearch {
                                              const PosePrior& predicted,
                                              const LastFrame& last,
                                              const MapSnapshot& snapshot,
-                                             FrameAssociation& association) const;
+                                             LandmarkMatches& association) const;
   // Finds a pose by comparing descriptors with the newest keyframe (in odometry with the last
   // frame). Starts from the pose with which most points agree, or where there is none from the last
   // pose. Returns nullopt where no pose is accepted.
   std::optional<PoseEstimate> FromAppearance(const Frame& frame,
                                              const LastFrame& last,
                                              const MapSnapshot& snapshot,
-                                             FrameAssociation& association,
+                                             LandmarkMatches& association,
                                              FrameCounts& counts) const;
   // Searches more of the last frame's landmarks, starting from the first estimate and its matches.
   PoseAttempt WithLastFrame(const Frame& frame,
                             const PoseEstimate& first,
                             const PosePrior& prior,
-                            FrameAssociation found) const;
+                            LandmarkMatches found) const;
   // Searches the rest of the snapshot in the given windows, starting from the first estimate and
   // its matches. `expected` of the result are the landmarks that should be visible from there.
   // Established landmarks are not outvoted.
@@ -85,7 +85,7 @@ class PoseSearch {
                            const PoseEstimate& first,
                            const PosePrior& prior,
                            const MapSnapshot& snapshot,
-                           const FrameAssociation& found,
+                           const LandmarkMatches& found,
                            const ProjectionSearchOptions& windows) const;
 
   bool Accepted(const PoseEstimate& pose) const {
@@ -107,43 +107,43 @@ class PoseSearch {
     Depths depths = Depths::kKnown;
     double factor = 1;  // factor on the usual radius around the predicted places
   };
-  FrameAssociation LastLandmarks(const LastFrame& last,
-                                 const MapSnapshot& snapshot,
-                                 const Frame& frame,
-                                 Depths depths) const;
+  LandmarkMatches LastLandmarks(const LastFrame& last,
+                                const MapSnapshot& snapshot,
+                                const Frame& frame,
+                                Depths depths) const;
   std::optional<PoseEstimate> SearchLast(const Frame& frame,
                                          const PosePrior& predicted,
                                          const LastFrame& last,
                                          const MapSnapshot& snapshot,
                                          const LastSearch& how,
-                                         FrameAssociation& association) const;
+                                         LandmarkMatches& association) const;
   // Returns the landmark that a feature of an earlier frame shows: `known`, a landmark of the map,
   // or where that is nullptr one made from the feature's depth.
-  std::optional<CandidatePoint> PointOf(const SnapshotPoint* known,
+  std::optional<PointCandidate> PointOf(const SnapshotPoint* known,
                                         const Frame& frame,
                                         std::size_t feature,
                                         double max_relative_sigma) const;
-  std::optional<CandidateLine> LineOf(const SnapshotLine* known,
+  std::optional<LineCandidate> LineOf(const SnapshotLine* known,
                                       const Frame& frame,
                                       std::size_t feature,
                                       double max_relative_sigma) const;
-  FrameAssociation MatchAppearance(const Frame& frame,
-                                   const Frame& reference,
-                                   const MapSnapshot& snapshot) const;
+  LandmarkMatches MatchAppearance(const Frame& frame,
+                                  const Frame& reference,
+                                  const MapSnapshot& snapshot) const;
   // Estimates a pose that young landmarks cannot take from the established ones. Things that move
   // make new landmarks all the time, and near the camera, where disparities say most, these outvote
   // walls that have been known for long. Where the pose from all matches loses some of the
   // established landmarks, although these fix a pose without the others and agree among themselves,
   // the established ones decide, and the others count as far as they agree with them.
-  PoseEstimate EstimateNotOutvoted(const Frame& frame,
-                                   const Rigid3& initial,
-                                   const PosePrior& prior,
-                                   const MapSnapshot& snapshot,
-                                   FrameAssociation& association) const;
+  PoseEstimate EstimateFavoringEstablished(const Frame& frame,
+                                           const Rigid3& initial,
+                                           const PosePrior& prior,
+                                           const MapSnapshot& snapshot,
+                                           LandmarkMatches& association) const;
 
   bool IsOdometry() const { return options_.reference == TrackingReference::kLastFrame; }
 
-  ImagingModel imaging_;
+  CameraAndPyramid imaging_;
   TrackingOptions options_;
   PoseEstimator estimator_;
 };

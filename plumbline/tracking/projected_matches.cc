@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/tracking/projected_matches.h"
 
-#include "plumbline/association/projection_search.h"
-#include "plumbline/association/uncertain_line.h"
 #include "plumbline/geometry/trimming.h"
+#include "plumbline/matching/projection_search.h"
+#include "plumbline/matching/uncertain_line.h"
 #include "plumbline/optimization/pose_solver.h"
 #include "plumbline/tracking/projected_ends.h"
 

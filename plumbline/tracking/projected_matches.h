@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/line_options.h"
-#include "plumbline/association/measurements.h"
 #include "plumbline/map/landmarks.h"
-#include "plumbline/optimization/pose_only.h"
+#include "plumbline/matching/line_options.h"
+#include "plumbline/matching/measurements.h"
+#include "plumbline/optimization/pose_optimization.h"
 #include "plumbline/optimization/problem.h"
 
 #include <optional>

@@ -58,7 +58,7 @@ bool Apart(const PlaceFound& one, const PlaceFound& other) {
 
 }  // namespace
 
-Relocalizer::Relocalizer(const ImagingModel& imaging,
+Relocalizer::Relocalizer(const CameraAndPyramid& imaging,
                          const TrackingOptions& tracking,
                          const PoseEstimator& estimator)
     : search_(imaging, tracking, estimator) {}
@@ -69,7 +69,7 @@ std::optional<Relocalized> Relocalizer::FindBeside(const PlaceToTry& place,
   const auto snapshot = TakeSnapshot(*map, id);
   // The keyframe stands in for the last frame.
   const LastFrame keyframe{snapshot->reference->frame, {}};
-  FrameAssociation found;
+  LandmarkMatches found;
   FrameCounts counts;
   const auto first = search_.FromAppearance(frame, keyframe, *snapshot, found, counts);
   if (!first) return std::nullopt;

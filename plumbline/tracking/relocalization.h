@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/projection_search.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/map.h"
+#include "plumbline/matching/projection_search.h"
 #include "plumbline/tracking/options.h"
 #include "plumbline/tracking/pose_search.h"
 
@@ -17,7 +17,7 @@ namespace plumbline {
 // A frame whose pose in the map was found by appearance.
 struct Relocalized {
   Frame frame;  // the frame with its pose
-  FrameAssociation association;
+  LandmarkMatches association;
   KeyFrameId keyframe;  // the candidate that it was found from
   FrameCounts counts;
   double scene_depth = 0;  // median depth of the inliers
@@ -41,7 +41,7 @@ struct PlaceToTry {
 // Thread-safe; the result depends on the arguments alone. Cost: some tens of milliseconds.
 class Relocalizer {
  public:
-  Relocalizer(const ImagingModel& imaging,
+  Relocalizer(const CameraAndPyramid& imaging,
               const TrackingOptions& tracking,
               const PoseEstimator& estimator);
 

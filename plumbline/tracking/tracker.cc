@@ -11,14 +11,14 @@
 namespace plumbline {
 namespace {
 
-// Where the last pose is known to these deviations (PoseSigma), lines of the left image alone are
-// enough for the next one.
+// Where the last pose is known to these deviations (PoseUncertainty), lines of the left image alone
+// are enough for the next one.
 constexpr double kEnoughForLeftLines = 3e-4;
 
 // Whether association a is to be preferred. The one that shows more of the map is, unless the other
 // shows twice as much in all: things that move have many landmarks made on the spot, but after a
 // fast motion little of the map is left in the image.
-bool ShowsMore(const FrameAssociation& a, const FrameAssociation& b) {
+bool ShowsMore(const LandmarkMatches& a, const LandmarkMatches& b) {
   const int all_a = a.matches.All();
   const int all_b = b.matches.All();
   const int map_a = MatchesOfMap(a);
@@ -44,7 +44,7 @@ TrackerState NextState(TrackerState state, bool has_pose, int lost_frames, int n
   return lost_frames >= new_map_after ? TrackerState::kInitializing : TrackerState::kLost;
 }
 
-Tracker::Tracker(const ImagingModel& imaging,
+Tracker::Tracker(const CameraAndPyramid& imaging,
                  const TrackingOptions& options,
                  const PoseEstimator& estimator,
                  const Rigid3& world_from_first_cam,
@@ -57,7 +57,7 @@ Tracker::Tracker(const ImagingModel& imaging,
 
 TrackingResult Tracker::Track(FrameId id,
                               std::int64_t stamp_ns,
-                              std::shared_ptr<const IndexedFeatures> indexed,
+                              std::shared_ptr<const FrameFeatures> indexed,
                               const MapSnapshot* snapshot,
                               const LiveConditions& live) {
   Frame frame;
@@ -68,12 +68,12 @@ TrackingResult Tracker::Track(FrameId id,
   frame.indexed =
       snapshot != nullptr ? WithCorrection(indexed, snapshot->correction) : std::move(indexed);
   if (state_ == TrackerState::kInitializing) return StartMap(std::move(frame));
-  if (!last_) return Fail(std::move(frame), TrackingFailure::kNotRelocalized, {});
+  if (!last_) return FinishLost(std::move(frame), TrackingFailure::kNotRelocalized, {});
   PLUMBLINE_CHECK(snapshot != nullptr, "tracking without a map");
   if (snapshot->withdrawn) {
     // A map that was withdrawn counts as one that failed its trial, so that a new one may begin.
     trial_keyframes_ = std::max(trial_keyframes_, 1);
-    return Fail(std::move(frame), TrackingFailure::kMapWithdrawn, {});
+    return FinishLost(std::move(frame), TrackingFailure::kMapWithdrawn, {});
   }
   return Follow(std::move(frame), *snapshot, live);
 }
@@ -87,12 +87,12 @@ TrackingResult Tracker::Follow(Frame frame,
   const double seconds = 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns);
   const PosePrior predicted = motion_.Predict(last_pose, seconds);
 
-  Finding found = Find(frame, predicted, snapshot);
+  PoseCandidate found = Find(frame, predicted, snapshot);
   const MapSnapshot* seen = &snapshot;
   if (!found.Succeeded() && live.earlier != nullptr) {
     Frame corrected = frame;
     corrected.indexed = WithCorrection(frame.indexed, live.earlier->correction);
-    Finding again = FindByAppearance(corrected, *live.earlier);
+    PoseCandidate again = FindByAppearance(corrected, *live.earlier);
     if (again.Succeeded()) {
       frame = std::move(corrected);
       found = std::move(again);
@@ -103,24 +103,25 @@ TrackingResult Tracker::Follow(Frame frame,
   if (found.attempt && map_learns) {
     CountSeen(found.attempt->expected, found.attempt->association, scores_);
   }
-  if (!found.Succeeded()) return Fail(std::move(frame), found.failure, found.counts);
+  if (!found.Succeeded()) return FinishLost(std::move(frame), found.failure, found.counts);
 
   PoseAttempt& attempt = *found.attempt;
   frame.cam_from_world = attempt.pose.cam_from_world;
   SetLandmarks(attempt.association, frame);
   const bool wanted = WantsKeyFrame(frame, attempt.association, *seen, live.feature_share);
   // The centre of an earlier snapshot may have moved since, and the pose moves with it.
-  const Placement before = seen->places.at(seen->centre);
+  const KeyFramePose before = seen->places.at(seen->centre);
   const auto today = snapshot.places.find(seen->centre);
-  const Placement centre = today == snapshot.places.end() ? before : today->second;
+  const KeyFramePose centre = today == snapshot.places.end() ? before : today->second;
   Rigid3& pose = attempt.pose.cam_from_world;
   if (seen != &snapshot) {
-    pose = PoseBeside(centre, {pose * Inverse(before.cam_from_world), before.unit});
-    ChangeUnit(centre.unit / before.unit, attempt.pose);
+    pose = ComposePose(centre, {pose * Inverse(before.cam_from_world), before.scale});
+    ChangeUnit(centre.scale / before.scale, attempt.pose);
   }
   const Matrix6d covariance = motion_.Observe(last_pose, attempt.pose, seconds);
   frame.cam_from_world = pose;
-  TrackingResult result = Succeed(std::move(frame), std::move(found), seen->centre, centre, wanted);
+  TrackingResult result =
+      FinishTracked(std::move(frame), std::move(found), seen->centre, centre, wanted);
   result.covariance = covariance;
   return result;
 }
@@ -128,50 +129,51 @@ TrackingResult Tracker::Follow(Frame frame,
 // Searches near the predicted pose. It searches by appearance as well where that finds no pose,
 // where the motion is not known (a guess of no motion finds whatever happens to lie there), and
 // where much less is found than in the frame before (the motion was unexpected).
-Tracker::Finding Tracker::Find(const Frame& frame,
-                               const PosePrior& predicted,
-                               const MapSnapshot& snapshot) const {
+Tracker::PoseCandidate Tracker::Find(const Frame& frame,
+                                     const PosePrior& predicted,
+                                     const MapSnapshot& snapshot) const {
   FrameCounts counts;
-  std::optional<PoseAttempt> best = NearPrediction(frame, predicted, snapshot);
+  std::optional<PoseAttempt> best = TrackWithMotionModel(frame, predicted, snapshot);
   if (!best || !motion_.IsKnown() || IsWeak(*best)) {
-    std::optional<PoseAttempt> other = ByAppearance(frame, snapshot, counts);
+    std::optional<PoseAttempt> other = TrackReferenceKeyFrame(frame, snapshot, counts);
     const bool better = other && (!best || ShowsMore(other->association, best->association));
     if (better) best = std::move(other);
   }
-  return Judge(std::move(best), counts);
+  return CheckPose(std::move(best), counts);
 }
 
-Tracker::Finding Tracker::FindByAppearance(const Frame& frame, const MapSnapshot& snapshot) const {
+Tracker::PoseCandidate Tracker::FindByAppearance(const Frame& frame,
+                                                 const MapSnapshot& snapshot) const {
   FrameCounts counts;
-  std::optional<PoseAttempt> attempt = ByAppearance(frame, snapshot, counts);
-  return Judge(std::move(attempt), counts);
+  std::optional<PoseAttempt> attempt = TrackReferenceKeyFrame(frame, snapshot, counts);
+  return CheckPose(std::move(attempt), counts);
 }
 
-std::optional<PoseAttempt> Tracker::NearPrediction(const Frame& frame,
-                                                   const PosePrior& predicted,
-                                                   const MapSnapshot& snapshot) const {
-  FrameAssociation found;
+std::optional<PoseAttempt> Tracker::TrackWithMotionModel(const Frame& frame,
+                                                         const PosePrior& predicted,
+                                                         const MapSnapshot& snapshot) const {
+  LandmarkMatches found;
   const auto first = search_.FromPrediction(frame, predicted, *last_, snapshot, found);
   if (!first) return std::nullopt;
-  return Settle(frame, *first, predicted, snapshot, std::move(found));
+  return TrackLocalMap(frame, *first, predicted, snapshot, std::move(found));
 }
 
-std::optional<PoseAttempt> Tracker::ByAppearance(const Frame& frame,
-                                                 const MapSnapshot& snapshot,
-                                                 FrameCounts& counts) const {
-  FrameAssociation found;
+std::optional<PoseAttempt> Tracker::TrackReferenceKeyFrame(const Frame& frame,
+                                                           const MapSnapshot& snapshot,
+                                                           FrameCounts& counts) const {
+  LandmarkMatches found;
   const auto first = search_.FromAppearance(frame, *last_, snapshot, found, counts);
   if (!first) return std::nullopt;
   const PosePrior free{last_->frame.cam_from_world};
-  return Settle(frame, *first, free, snapshot, std::move(found));
+  return TrackLocalMap(frame, *first, free, snapshot, std::move(found));
 }
 
 // Estimates the final pose from all that the map, or in odometry the last frame, has in the image.
-PoseAttempt Tracker::Settle(const Frame& frame,
-                            const PoseEstimate& first,
-                            const PosePrior& prior,
-                            const MapSnapshot& snapshot,
-                            FrameAssociation found) const {
+PoseAttempt Tracker::TrackLocalMap(const Frame& frame,
+                                   const PoseEstimate& first,
+                                   const PosePrior& prior,
+                                   const MapSnapshot& snapshot,
+                                   LandmarkMatches found) const {
   if (IsOdometry()) return search_.WithLastFrame(frame, first, prior, std::move(found));
   PoseAttempt near = search_.WithLocalMap(frame, first, prior, snapshot, found, {});
   if (first.Inliers() >= options_.enough_inliers) return near;
@@ -188,8 +190,8 @@ bool Tracker::IsWeak(const PoseAttempt& attempt) const {
          attempt.association.matches.All() < kMuchLess * last_->association.matches.All();
 }
 
-Tracker::Finding Tracker::Judge(std::optional<PoseAttempt> attempt,
-                                const FrameCounts& without_pose) const {
+Tracker::PoseCandidate Tracker::CheckPose(std::optional<PoseAttempt> attempt,
+                                          const FrameCounts& without_pose) const {
   if (!attempt) {
     const int matches = without_pose.matched_points + without_pose.matched_lines;
     return {std::nullopt,
@@ -212,7 +214,7 @@ Tracker::Finding Tracker::Judge(std::optional<PoseAttempt> attempt,
 }
 
 bool Tracker::WantsKeyFrame(const Frame& frame,
-                            const FrameAssociation& association,
+                            const LandmarkMatches& association,
                             const MapSnapshot& snapshot,
                             double feature_share) const {
   if (IsOdometry()) return false;  // odometry has no map that keyframes could be added to
@@ -225,8 +227,11 @@ bool Tracker::WantsKeyFrame(const Frame& frame,
   return DecideKeyFrame(situation, options_.keyframes) != KeyFrameReason::kNone;
 }
 
-TrackingResult Tracker::Succeed(
-    Frame frame, Finding found, KeyFrameId reference, const Placement& place, bool wants_keyframe) {
+TrackingResult Tracker::FinishTracked(Frame frame,
+                                      PoseCandidate found,
+                                      KeyFrameId reference,
+                                      const KeyFramePose& place,
+                                      bool wants_keyframe) {
   ForgetLoss();
   state_ = NextState(state_, true, 0, options_.new_map_after);
   TrackingResult result;
@@ -234,7 +239,7 @@ TrackingResult Tracker::Succeed(
   result.state = state_;
   result.cam_from_world = frame.cam_from_world;
   result.reference = reference;
-  result.from_reference = {frame.cam_from_world * Inverse(place.cam_from_world), place.unit};
+  result.from_reference = {frame.cam_from_world * Inverse(place.cam_from_world), place.scale};
   Anchor parent;
   if (wants_keyframe && use_ && use_->read_only) {
     result.leaves_surroundings = true;
@@ -243,7 +248,7 @@ TrackingResult Tracker::Succeed(
     parent = {reference, result.from_reference};
     result.keyframe = MakeKeyFrame(frame, reference, result.from_reference);
     result.reference = newest_keyframe_;
-    result.from_reference = {Rigid3{}, place.unit};
+    result.from_reference = {Rigid3{}, place.scale};
   }
   result.frame = frame;
   last_ = Tracked{{std::move(frame), std::move(found.attempt->association)},
@@ -252,7 +257,7 @@ TrackingResult Tracker::Succeed(
   return result;
 }
 
-TrackingResult Tracker::Fail(Frame frame, TrackingFailure failure, FrameCounts counts) {
+TrackingResult Tracker::FinishLost(Frame frame, TrackingFailure failure, FrameCounts counts) {
   const bool blind = state_ != TrackerState::kInitializing &&
                      failure != TrackingFailure::kMapWithdrawn && IsBlind(frame.features());
   if (blind) {
@@ -319,12 +324,12 @@ void Tracker::MoveWithMap(const MapSnapshot& snapshot) {
   Anchor& anchor = arrived ? last_->anchor : last_->parent;
   const auto place = snapshot.places.find(anchor.keyframe);
   if (place == snapshot.places.end()) return;  // a first keyframe is not in the map yet
-  last_->frame.cam_from_world = PoseBeside(place->second, anchor.relative);
-  const double scale = place->second.unit / anchor.relative.unit;
+  last_->frame.cam_from_world = ComposePose(place->second, anchor.relative);
+  const double scale = place->second.scale / anchor.relative.scale;
   if (scale == 1) return;
   for (Anchor* each : {&last_->anchor, &last_->parent}) {
-    each->relative = {InUnit(each->relative, scale * each->relative.unit),
-                      scale * each->relative.unit};
+    each->relative = {Rescaled(each->relative, scale * each->relative.scale),
+                      scale * each->relative.scale};
   }
   motion_.ChangeUnit(scale);
 }
@@ -339,7 +344,7 @@ TrackingResult Tracker::StartMap(Frame frame) {
         return right.has_value();
       });
   if (with_depth < options_.min_initial) {
-    return Fail(std::move(frame), TrackingFailure::kTooFewFeatures, {});
+    return FinishLost(std::move(frame), TrackingFailure::kTooFewFeatures, {});
   }
   frame.cam_from_world = first_cam_from_world_;
   use_.reset();
@@ -356,7 +361,7 @@ TrackingResult Tracker::StartMap(Frame frame) {
   motion_.Forget();
   const std::size_t points = frame.points.size();
   const std::size_t lines = frame.lines.size();
-  last_ = Tracked{{std::move(frame), FrameAssociation(points, lines)}, {newest_keyframe_, {}}, {}};
+  last_ = Tracked{{std::move(frame), LandmarkMatches(points, lines)}, {newest_keyframe_, {}}, {}};
   return result;
 }
 
@@ -373,8 +378,7 @@ bool Tracker::WantsRightLines(const TrackingResult& result) const {
   return result.keyframe || !motion_.LastPoseIsKnownTo(kEnoughForLeftLines);
 }
 
-void Tracker::Complete(const std::shared_ptr<const IndexedFeatures>& whole,
-                       TrackingResult& result) {
+void Tracker::Complete(const std::shared_ptr<const FrameFeatures>& whole, TrackingResult& result) {
   last_->frame.indexed = whole;
   result.frame.indexed = whole;
   if (result.keyframe) result.keyframe->keyframe.frame.indexed = whole;
@@ -391,7 +395,7 @@ TrackingResult Tracker::StartFrom(const MapSnapshot& snapshot, const Vector6d& v
   trial_keyframes_ = options_.trial_keyframes;
   motion_.Begin(velocity);
   state_ = NextState(state_, true, 0, options_.new_map_after);
-  FrameAssociation association = AssociationOf(frame, snapshot);
+  LandmarkMatches association = AssociationOf(frame, snapshot);
   TrackingResult result;
   result.state = state_;
   result.counts.matched_points = result.counts.inlier_points = association.matches.Points();
@@ -399,7 +403,7 @@ TrackingResult Tracker::StartFrom(const MapSnapshot& snapshot, const Vector6d& v
   result.cam_from_world = frame.cam_from_world;
   result.reference = newest_keyframe_;
   result.frame = frame;
-  result.from_reference.unit = snapshot.reference->unit;
+  result.from_reference.scale = snapshot.reference->scale;
   last_ = Tracked{{frame, std::move(association)}, {newest_keyframe_, result.from_reference}, {}};
   return result;
 }
@@ -411,16 +415,18 @@ void Tracker::BeginLost(const MapUse& use) {
 }
 
 void Tracker::FollowFrom(const Relocalized& found, const MapSnapshot& snapshot) {
-  const Placement& place = snapshot.places.at(snapshot.centre);
+  const KeyFramePose& place = snapshot.places.at(snapshot.centre);
   const RelativePose relative{found.frame.cam_from_world * Inverse(place.cam_from_world),
-                              place.unit};
+                              place.scale};
   motion_.Forget();
   newest_keyframe_ = snapshot.centre;
   frames_since_keyframe_ = 0;
   last_ = Tracked{{found.frame, found.association}, {snapshot.centre, relative}, {}};
 }
 
-void Tracker::Rehang(KeyFrameId gone, KeyFrameId parent, const RelativePose& gone_from_parent) {
+void Tracker::ReparentPoses(KeyFrameId gone,
+                            KeyFrameId parent,
+                            const RelativePose& gone_from_parent) {
   if (!last_ || last_->anchor.keyframe != gone) return;
   last_->anchor = {parent, Chained(last_->anchor.relative, gone_from_parent)};
 }

@@ -4,9 +4,9 @@
 
 #include "plumbline/image/pyramid.h"
 #include "plumbline/map/frame.h"
-#include "plumbline/map/placement.h"
+#include "plumbline/map/keyframe_pose.h"
 #include "plumbline/map/snapshot.h"
-#include "plumbline/tracking/keyframe_policy.h"
+#include "plumbline/tracking/keyframe_decision.h"
 #include "plumbline/tracking/motion_model.h"
 #include "plumbline/tracking/options.h"
 #include "plumbline/tracking/pose_estimation.h"
@@ -125,7 +125,7 @@ struct TrackingResult {
 class Tracker {
  public:
   // world_from_first_cam  pose given to the first frame of each map
-  Tracker(const ImagingModel& imaging,
+  Tracker(const CameraAndPyramid& imaging,
           const TrackingOptions& options,
           const PoseEstimator& estimator,
           const Rigid3& world_from_first_cam,
@@ -135,7 +135,7 @@ class Tracker {
   // that was withdrawn ends that map: the frame has no pose, and the next frames begin another map.
   TrackingResult Track(FrameId id,
                        std::int64_t stamp_ns,
-                       std::shared_ptr<const IndexedFeatures> indexed,
+                       std::shared_ptr<const FrameFeatures> indexed,
                        const MapSnapshot* snapshot,
                        const LiveConditions& live = {});
 
@@ -150,7 +150,7 @@ class Tracker {
   bool WantsRightLines(const TrackingResult& result) const;
   // Puts features with right lines in place of those of the last frame, its result and the keyframe
   // that it became.
-  void Complete(const std::shared_ptr<const IndexedFeatures>& whole, TrackingResult& result);
+  void Complete(const std::shared_ptr<const FrameFeatures>& whole, TrackingResult& result);
 
   // Begins to follow a map that was made of several frames. The snapshot is centred on its newest
   // keyframe, which is made of the present frame.
@@ -166,7 +166,7 @@ class Tracker {
   // Tells that a lost frame was looked for in the maps and not found.
   void NotFound() { asked_ = true; }
   // A keyframe was removed from the map: poses that refer to it refer to its parent from now on.
-  void Rehang(KeyFrameId gone, KeyFrameId parent, const RelativePose& gone_from_parent);
+  void ReparentPoses(KeyFrameId gone, KeyFrameId parent, const RelativePose& gone_from_parent);
 
   TrackerState state() const { return state_; }
   // Returns the id that the next keyframe will get.
@@ -190,7 +190,7 @@ class Tracker {
   };
 
   // A pose, or why there is none.
-  struct Finding {
+  struct PoseCandidate {
     // The counts in this attempt are those in `counts`.
     std::optional<PoseAttempt> attempt;
     TrackingFailure failure = TrackingFailure::kNone;
@@ -202,34 +202,37 @@ class Tracker {
   // Tracks one frame against the map: predicts, searches and estimates, judges the pose, decides
   // about a keyframe.
   TrackingResult Follow(Frame frame, const MapSnapshot& snapshot, const LiveConditions& live);
-  Finding Find(const Frame& frame, const PosePrior& predicted, const MapSnapshot& snapshot) const;
-  Finding FindByAppearance(const Frame& frame, const MapSnapshot& snapshot) const;
-  std::optional<PoseAttempt> NearPrediction(const Frame& frame,
-                                            const PosePrior& predicted,
-                                            const MapSnapshot& snapshot) const;
-  std::optional<PoseAttempt> ByAppearance(const Frame& frame,
-                                          const MapSnapshot& snapshot,
-                                          FrameCounts& counts) const;
-  PoseAttempt Settle(const Frame& frame,
-                     const PoseEstimate& first,
-                     const PosePrior& prior,
-                     const MapSnapshot& snapshot,
-                     FrameAssociation found) const;
+  PoseCandidate Find(const Frame& frame,
+                     const PosePrior& predicted,
+                     const MapSnapshot& snapshot) const;
+  PoseCandidate FindByAppearance(const Frame& frame, const MapSnapshot& snapshot) const;
+  std::optional<PoseAttempt> TrackWithMotionModel(const Frame& frame,
+                                                  const PosePrior& predicted,
+                                                  const MapSnapshot& snapshot) const;
+  std::optional<PoseAttempt> TrackReferenceKeyFrame(const Frame& frame,
+                                                    const MapSnapshot& snapshot,
+                                                    FrameCounts& counts) const;
+  PoseAttempt TrackLocalMap(const Frame& frame,
+                            const PoseEstimate& first,
+                            const PosePrior& prior,
+                            const MapSnapshot& snapshot,
+                            LandmarkMatches found) const;
   bool IsWeak(const PoseAttempt& attempt) const;
   // without_pose: the counts of matches to report where there is no attempt.
-  Finding Judge(std::optional<PoseAttempt> attempt, const FrameCounts& without_pose) const;
+  PoseCandidate CheckPose(std::optional<PoseAttempt> attempt,
+                          const FrameCounts& without_pose) const;
   bool WantsKeyFrame(const Frame& frame,
-                     const FrameAssociation& association,
+                     const LandmarkMatches& association,
                      const MapSnapshot& snapshot,
                      double feature_share) const;
 
   // reference, place: the keyframe that the frame's pose is relative to, and where it is.
-  TrackingResult Succeed(Frame frame,
-                         Finding found,
-                         KeyFrameId reference,
-                         const Placement& place,
-                         bool wants_keyframe);
-  TrackingResult Fail(Frame frame, TrackingFailure failure, FrameCounts counts);
+  TrackingResult FinishTracked(Frame frame,
+                               PoseCandidate found,
+                               KeyFrameId reference,
+                               const KeyFramePose& place,
+                               bool wants_keyframe);
+  TrackingResult FinishLost(Frame frame, TrackingFailure failure, FrameCounts counts);
   bool IsBlind(const Features& features) const;
   int Patience(const Frame& frame, bool blind) const;
   void ForgetLoss();

@@ -104,10 +104,10 @@ TEST(AdjustWithLines, LeavesWrongMatchesOut) {
 TEST(AdjustWithLines, FindsTheNoiseOfTheLines) {
   TrackScene scene =
       MakeTrackScene(5, CurvedMotion(3), {.points = 60, .sigma = kSigma, .lines = 200});
-  for (TrackedLines* view : {&scene.tracks.lines.reference,
-                             &scene.tracks.lines.views[0],
-                             &scene.tracks.lines.views[1],
-                             &scene.tracks.lines.views[2]}) {
+  for (ViewLines* view : {&scene.tracks.lines.reference,
+                          &scene.tracks.lines.views[0],
+                          &scene.tracks.lines.views[1],
+                          &scene.tracks.lines.views[2]}) {
     for (double& sigma : view->sigmas) sigma *= 2;
   }
   const auto adjusted = AdjustWithLines(scene.tracks, {ByPoints(scene)}, 0.05);

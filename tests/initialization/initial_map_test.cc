@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/initial_map.h"
 
-#include "plumbline/association/measurements.h"
 #include "plumbline/base/median.h"
 #include "plumbline/base/units.h"
+#include "plumbline/matching/measurements.h"
 #include "plumbline/optimization/residuals.h"
 
 #include "tests/support/synthetic_world.h"

@@ -29,7 +29,7 @@ TEST(KltInitializer, StartsFromTracks) {
     EXPECT_EQ(newest.frame.id.value, i);
     EXPECT_LT(RotationErrorDeg(newest.cam_from_world, PoseOnPath(i)), 0.5);
     EXPECT_LT(DirectionErrorDeg(newest.cam_from_world, PoseOnPath(i)), 5);
-    EXPECT_EQ(result.wait, InitializationWait::kNone);
+    EXPECT_EQ(result.wait, InitializationStatus::kNone);
     return;
   }
   FAIL() << "no map";

@@ -42,7 +42,7 @@ Count CountOf(const std::vector<Rigid3>& poses, const TrackSceneOptions& options
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const TrackScene scene = MakeTrackScene(seed, poses, options);
     const ModelSelection selection = Decide(scene, seed);
-    EXPECT_EQ(selection.reconstruction.has_value(), selection.wait == InitializationWait::kNone);
+    EXPECT_EQ(selection.reconstruction.has_value(), selection.wait == InitializationStatus::kNone);
     if (!selection.reconstruction) continue;
     ++(IsRight(scene, *selection.reconstruction) ? count.right : count.wrong);
   }
@@ -99,7 +99,7 @@ TEST(SelectModel, WaitsWhenAThingMovesBeforeACameraAtRest) {
 
 TEST(SelectModel, NeedsMatches) {
   const TrackScene scene = MakeTrackScene(1, CurvedMotion(3), {.points = 20});
-  EXPECT_EQ(Decide(scene, 1).wait, InitializationWait::kTooFewMatches);
+  EXPECT_EQ(Decide(scene, 1).wait, InitializationStatus::kTooFewMatches);
 }
 
 // A wall with a dozen corners and the edges of what hangs there.
@@ -147,7 +147,7 @@ TEST(PriorHypotheses, BringsPointsBackByFeature) {
   other.cam_from_reference.back().rotation =
       ExpSo3({0.1, 0, 0}) * other.cam_from_reference.back().rotation;
   EXPECT_FALSE(prior.Confirm(scene.tracks, other));
-  Tracks later;
+  FeatureTracks later;
   later.features = {7, 1000, 3};
   const auto hypotheses = prior.HypothesesFor(later);
   ASSERT_EQ(hypotheses.size(), 1U);

@@ -78,7 +78,7 @@ TEST(FactorizePairwise, AnglesDecideWhatIsInterpolated) {
 
 struct PairwiseRun {
   SyntheticWorld world = MakeSyntheticWorld(600, 80);
-  std::vector<InitializationWait> waits;
+  std::vector<InitializationStatus> waits;
   std::optional<InitialMap> map;
   InitializationCounts counts;
 };
@@ -92,7 +92,7 @@ PairwiseRun StartPairwise(const Pose& pose_of, int frames, InitializationOptions
   for (int i = 0; i < frames && !run.map; ++i) {
     const SyntheticFrame frame = Sense(run.world, pose_of(i), {.depth = false, .noise = 0.5}, rng);
     auto result = initializer.Add({FrameId{i}, i * 50'000'000, frame.indexed, nullptr});
-    EXPECT_EQ(result.map.has_value(), result.wait == InitializationWait::kNone);
+    EXPECT_EQ(result.map.has_value(), result.wait == InitializationStatus::kNone);
     run.waits.push_back(result.wait);
     run.map = std::move(result.map);
   }
@@ -153,8 +153,8 @@ TEST(PairwiseInitializer, LeavesTheAdjustmentOutWhereAskedTo) {
 TEST(PairwiseInitializer, WaitsForTheWindow) {
   const PairwiseRun run = StartPairwise(PoseOnPath, 3);
   EXPECT_FALSE(run.map);
-  for (const InitializationWait wait : run.waits)
-    EXPECT_EQ(wait, InitializationWait::kTooFewFrames);
+  for (const InitializationStatus wait : run.waits)
+    EXPECT_EQ(wait, InitializationStatus::kTooFewFrames);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ using testing::RotationErrorDeg;
 
 struct StartedRun {
   SyntheticWorld world = MakeSyntheticWorld(600, 80);
-  std::vector<InitializationWait> waits;
+  std::vector<InitializationStatus> waits;
   std::optional<InitialMap> map;
 };
 
@@ -29,7 +29,7 @@ StartedRun Start(const Pose& pose_of, int frames, double noise = 0.5) {
     const SyntheticFrame frame =
         Sense(run.world, pose_of(i), {.depth = false, .noise = noise}, rng);
     auto result = initializer.Add({FrameId{i}, i * 50'000'000, frame.indexed, nullptr});
-    EXPECT_EQ(result.map.has_value(), result.wait == InitializationWait::kNone);
+    EXPECT_EQ(result.map.has_value(), result.wait == InitializationStatus::kNone);
     run.waits.push_back(result.wait);
     run.map = std::move(result.map);
   }
@@ -39,7 +39,7 @@ StartedRun Start(const Pose& pose_of, int frames, double noise = 0.5) {
 TEST(Rank1Initializer, StartsAMapAsSoonAsItKnowsIt) {
   const StartedRun run = Start(PoseOnPath, 40);
   ASSERT_TRUE(run.map);
-  EXPECT_EQ(run.waits[0], InitializationWait::kTooFewFrames);
+  EXPECT_EQ(run.waits[0], InitializationStatus::kTooFewFrames);
   EXPECT_LT(run.waits.size(), 20U);
   ASSERT_EQ(run.map->views.size(), 4U);
   const InitialView& newest = run.map->views.back();
@@ -74,7 +74,7 @@ TEST(Rank1Initializer, AsksForFeatures) {
   const SyntheticFrame frame = Sense(world, {}, {.depth = false}, rng);
   Rank1Initializer initializer(world.Imaging(), {.matching = InitialMatching::kDescriptors}, 1);
   const auto result = initializer.Add({FrameId{0}, 0, frame.indexed, nullptr});
-  EXPECT_EQ(result.wait, InitializationWait::kTooFewFeatures);
+  EXPECT_EQ(result.wait, InitializationStatus::kTooFewFeatures);
 }
 
 TEST(Rank1Initializer, ForgetsWhenReset) {

@@ -28,9 +28,9 @@ double Median(std::vector<double> values) {
 TEST(ComputeCovariance, IsThatOfManyDraws) {
   const std::vector<Rigid3> poses = CurvedMotion(3);
   const TrackScene exact = MakeTrackScene(1, poses, {.points = 80});
-  Tracks tracks = exact.tracks;
+  FeatureTracks tracks = exact.tracks;
   for (double& sigma : tracks.reference.sigmas) sigma = kSigma;
-  for (TrackedPoints& view : tracks.views) view.sigmas = tracks.reference.sigmas;
+  for (ViewPoints& view : tracks.views) view.sigmas = tracks.reference.sigmas;
   const auto covariance = ComputeCovariance(tracks, exact.truth, 1, kMaxChi2);
   ASSERT_TRUE(covariance);
   constexpr int kDraws = 150;
@@ -40,9 +40,9 @@ TEST(ComputeCovariance, IsThatOfManyDraws) {
   const Eigen::Vector3d centre = Inverse(poses.back()).translation.normalized();
   for (int draw = 0; draw < kDraws; ++draw) {
     Rng rng(9, "draw", static_cast<std::uint64_t>(draw));
-    Tracks noisy = tracks;
+    FeatureTracks noisy = tracks;
     for (Eigen::Vector2d& place : noisy.reference.points) place += RandomVector<2>(rng, kSigma);
-    for (TrackedPoints& view : noisy.views) {
+    for (ViewPoints& view : noisy.views) {
       for (Eigen::Vector2d& place : view.points) place += RandomVector<2>(rng, kSigma);
     }
     Reconstruction solved = BundleAdjust(noisy, exact.truth, 15);
@@ -83,7 +83,7 @@ TEST(ComputeCovariance, IsThatOfManyDrawsWithLines) {
   ASSERT_TRUE(covariance);
   constexpr int kDraws = 100;
   constexpr double kSceneSigma = 1e-3;
-  const auto disturb = [](Rng& rng, TrackedPoints& points, TrackedLines& lines) {
+  const auto disturb = [](Rng& rng, ViewPoints& points, ViewLines& lines) {
     for (Eigen::Vector2d& place : points.points) place += RandomVector<2>(rng, kSceneSigma);
     for (Segment2& segment : lines.segments) {
       segment.start += RandomVector<2>(rng, kSceneSigma);
@@ -93,7 +93,7 @@ TEST(ComputeCovariance, IsThatOfManyDrawsWithLines) {
   double squares = 0;
   for (int draw = 0; draw < kDraws; ++draw) {
     Rng rng(10, "draw", static_cast<std::uint64_t>(draw));
-    Tracks noisy = exact.tracks;
+    FeatureTracks noisy = exact.tracks;
     disturb(rng, noisy.reference, noisy.lines.reference);
     for (std::size_t i = 0; i < poses.size(); ++i) {
       disturb(rng, noisy.views[i], noisy.lines.views[i]);

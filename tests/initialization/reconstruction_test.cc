@@ -32,10 +32,10 @@ TEST(EvaluatePoints, CountsInliers) {
 
 TEST(BundleAdjust, EndsAtTheLeastSquaresAndMeasuresTheNoise) {
   TrackScene scene = MakeTrackScene(2, CurvedMotion(3), {.points = 300, .sigma = 1e-3});
-  for (TrackedPoints* view : {&scene.tracks.reference,
-                              &scene.tracks.views[0],
-                              &scene.tracks.views[1],
-                              &scene.tracks.views[2]}) {
+  for (ViewPoints* view : {&scene.tracks.reference,
+                           &scene.tracks.views[0],
+                           &scene.tracks.views[1],
+                           &scene.tracks.views[2]}) {
     for (double& sigma : view->sigmas) sigma *= 2;  // half the noise that is said
   }
   const Reconstruction adjusted = BundleAdjust(scene.tracks, scene.truth, 20);

@@ -24,7 +24,7 @@ struct TrackSceneOptions {
 };
 
 struct TrackScene {
-  Tracks tracks;
+  FeatureTracks tracks;
   Reconstruction truth;
 };
 
@@ -58,7 +58,7 @@ inline void AddLines(std::uint64_t seed, const TrackSceneOptions& o, TrackScene&
   const double sigma = o.sigma > 0 ? o.sigma : 1e-3;
   LineTracks& lines = scene.tracks.lines;
   lines.views.resize(scene.truth.cam_from_reference.size());
-  const auto see = [&](const Rigid3& pose, const Segment3& line, TrackedLines& view) {
+  const auto see = [&](const Rigid3& pose, const Segment3& line, ViewLines& view) {
     const Eigen::Vector3d along = rng.Uniform(-0.2, 0.2) * (line.end - line.start);
     view.segments.push_back(
         Seen(pose, {line.start + along, line.end + along}, rng, o.line_noise * o.sigma));
@@ -86,7 +86,7 @@ inline TrackScene MakeTrackScene(std::uint64_t seed,
   scene.truth.cam_from_reference = poses;
   scene.tracks.views.resize(poses.size());
   const double sigma = o.sigma > 0 ? o.sigma : 1e-3;
-  const auto see = [&](const Eigen::Vector3d& in_cam, TrackedPoints& view, bool matched) {
+  const auto see = [&](const Eigen::Vector3d& in_cam, ViewPoints& view, bool matched) {
     const bool wrong = rng.Uniform() < o.outliers;
     const Eigen::Vector2d noise = wrong ? Eigen::Vector2d(RandomVector<2>(rng, 0.05))
                                         : Eigen::Vector2d(RandomVector<2>(rng, o.sigma));

@@ -26,9 +26,9 @@ struct Sequence {
   }
 };
 
-TEST(FrameWindow, SpreadsFramesSinceTheReference) {
+TEST(InitializationWindow, SpreadsFramesSinceTheReference) {
   Sequence sequence;
-  FrameWindow window(sequence.world.Imaging(), InitialMatching::kDescriptors);
+  InitializationWindow window(sequence.world.Imaging(), InitialMatching::kDescriptors);
   EXPECT_TRUE(window.empty());
   for (int i = 0; i < 11; ++i) window.Add(sequence.Next());
   EXPECT_EQ(window.size(), 10);
@@ -39,14 +39,14 @@ TEST(FrameWindow, SpreadsFramesSinceTheReference) {
   EXPECT_EQ(window.frame(window.SelectFrames(3).back()).id.value, 10);
 }
 
-TEST(FrameWindow, TracksShowTheSamePoints) {
+TEST(InitializationWindow, TracksShowTheSamePoints) {
   Sequence sequence;
-  FrameWindow window(sequence.world.Imaging(), InitialMatching::kDescriptors);
+  InitializationWindow window(sequence.world.Imaging(), InitialMatching::kDescriptors);
   int matches = 0;
   for (int i = 0; i < 7; ++i) matches = window.Add(sequence.Next());
   EXPECT_GT(matches, 100);
   const std::vector<int> frames = window.SelectFrames(3);
-  const Tracks tracks = window.CollectTracks(frames, 80);
+  const FeatureTracks tracks = window.CollectTracks(frames, 80);
   ASSERT_EQ(tracks.size(), 80U);
   const RectifiedCamera& camera = sequence.world.camera;
   double worst = 0;
@@ -89,18 +89,18 @@ InitializationFrame PosterFrame(const MovingPoster& poster, int i, Features feat
 }
 
 // The poster moves before the camera; the frames have no features of their own.
-TEST(FrameWindow, FollowsPointsOnTheImages) {
+TEST(InitializationWindow, FollowsPointsOnTheImages) {
   const MovingPoster poster;
   const RectifiedCamera camera = TestCamera();
   Features features = PointsInTwoOctaves();
-  FrameWindow window({camera}, InitialMatching::kImages);
+  InitializationWindow window({camera}, InitialMatching::kImages);
   const auto number = static_cast<int>(features.points.size()) / 2;
   window.Add(PosterFrame(poster, 0, std::move(features)));
   int seen = 0;
   for (int i = 1; i <= 3; ++i) seen = window.Add(PosterFrame(poster, i, {}));
   EXPECT_GT(seen, number / 4);
   EXPECT_LE(seen, number) << "of two octaves one is followed";
-  const Tracks tracks = window.CollectTracks({2}, 1000);
+  const FeatureTracks tracks = window.CollectTracks({2}, 1000);
   ASSERT_GT(tracks.size(), 0U);
   for (std::size_t k = 0; k < tracks.size(); ++k) {
     const Eigen::Vector2d moved = tracks.views[0].points[k] - tracks.reference.points[k];
@@ -109,17 +109,17 @@ TEST(FrameWindow, FollowsPointsOnTheImages) {
   }
 }
 
-TEST(FrameWindow, AHelperChangesNothing) {
+TEST(InitializationWindow, AHelperChangesNothing) {
   const MovingPoster poster;
   HelperThread helper;
   const auto tracks_with = [&](HelperThread* who) {
-    FrameWindow window({TestCamera()}, InitialMatching::kImages, who);
+    InitializationWindow window({TestCamera()}, InitialMatching::kImages, who);
     window.Add(PosterFrame(poster, 0, PointsInTwoOctaves()));
     for (int i = 1; i <= 3; ++i) window.Add(PosterFrame(poster, i, {}));
     return window.CollectTracks({0, 1, 2}, 1000);
   };
-  const Tracks alone = tracks_with(nullptr);
-  const Tracks helped = tracks_with(&helper);
+  const FeatureTracks alone = tracks_with(nullptr);
+  const FeatureTracks helped = tracks_with(&helper);
   EXPECT_GT(alone.size(), 0U);
   EXPECT_EQ(helped.features, alone.features);
   for (std::size_t i = 0; i < alone.views.size(); ++i) {
@@ -128,9 +128,9 @@ TEST(FrameWindow, AHelperChangesNothing) {
   }
 }
 
-TEST(FrameWindow, TakesPointsFromAllOverTheImage) {
+TEST(InitializationWindow, TakesPointsFromAllOverTheImage) {
   Sequence sequence;
-  FrameWindow window(sequence.world.Imaging(), InitialMatching::kDescriptors);
+  InitializationWindow window(sequence.world.Imaging(), InitialMatching::kDescriptors);
   for (int i = 0; i < 4; ++i) window.Add(sequence.Next());
   // Cells of a quarter of the image's focal length: 40 points are in more of them than the
   // first 40.
@@ -148,9 +148,9 @@ TEST(FrameWindow, TakesPointsFromAllOverTheImage) {
   EXPECT_GT(cells_of(spread), cells_of(std::span(all).first(40)) + 2);
 }
 
-TEST(FrameWindow, MovesTheReferenceForward) {
+TEST(InitializationWindow, MovesTheReferenceForward) {
   Sequence sequence;
-  FrameWindow window(sequence.world.Imaging(), InitialMatching::kDescriptors);
+  InitializationWindow window(sequence.world.Imaging(), InitialMatching::kDescriptors);
   for (int i = 0; i < 9; ++i) window.Add(sequence.Next());
   window.MoveReference();
   EXPECT_EQ(window.reference().id.value, 4);
@@ -162,9 +162,9 @@ TEST(FrameWindow, MovesTheReferenceForward) {
   EXPECT_EQ(window.size(), 0);
 }
 
-TEST(FrameWindow, KeepsEverySecondOfTooMany) {
+TEST(InitializationWindow, KeepsEverySecondOfTooMany) {
   Sequence sequence;
-  FrameWindow window(sequence.world.Imaging(), InitialMatching::kDescriptors);
+  InitializationWindow window(sequence.world.Imaging(), InitialMatching::kDescriptors);
   const InitializationFrame first = sequence.Next();
   window.Add(first);
   for (int i = 0; i < 41; ++i) {

@@ -48,7 +48,7 @@ TEST(SolveTwoViews, ChoosesTheModelOfTheScene) {
     const TwoViewScene space = MakeTwoViewScene(seed, {.outliers = 0.1, .sigma = 0.5 / 500});
     const TwoViewSolution in_space = SolveTwoViews(space.matches, rng);
     EXPECT_EQ(in_space.model, TwoViewModel::kEssential);
-    EXPECT_EQ(in_space.wait, InitializationWait::kNone);
+    EXPECT_EQ(in_space.wait, InitializationStatus::kNone);
     EXPECT_LT(AngularDistance(in_space.b_from_a.rotation, space.b_from_a.rotation), 0.5 * kDegree);
     EXPECT_LT(AngleBetween(in_space.b_from_a.translation, space.b_from_a.translation), 5 * kDegree);
     EXPECT_EQ(in_space.is_good.size(), space.matches.size());
@@ -67,9 +67,9 @@ TEST(SolveTwoViews, WaitsWhereTheFramesDoNotDecide) {
         MakeTwoViewScene(2, {.kind = kind, .points = points, .sigma = 0.5 / 500});
     return SolveTwoViews(scene.matches, rng).wait;
   };
-  EXPECT_EQ(wait(SceneKind::kGeneral, 99), InitializationWait::kTooFewMatches);
-  EXPECT_EQ(wait(SceneKind::kTwofoldPlane, 300), InitializationWait::kAmbiguous);
-  EXPECT_EQ(wait(SceneKind::kTurnOnly, 300), InitializationWait::kTooLittleParallax);
+  EXPECT_EQ(wait(SceneKind::kGeneral, 99), InitializationStatus::kTooFewMatches);
+  EXPECT_EQ(wait(SceneKind::kTwofoldPlane, 300), InitializationStatus::kAmbiguous);
+  EXPECT_EQ(wait(SceneKind::kTurnOnly, 300), InitializationStatus::kTooLittleParallax);
 }
 
 TEST(TwoViewInitializer, StartsAMapOnceThereIsParallax) {
@@ -82,7 +82,7 @@ TEST(TwoViewInitializer, StartsAMapOnceThereIsParallax) {
     last = i;
     const SyntheticFrame sensed = Sense(world, PoseOnPath(i), {.depth = false, .noise = 0.5}, rng);
     result = initializer.Add(FrameOf(i, sensed));
-    EXPECT_EQ(result.map.has_value(), result.wait == InitializationWait::kNone);
+    EXPECT_EQ(result.map.has_value(), result.wait == InitializationStatus::kNone);
   }
   ASSERT_TRUE(result.map);
   EXPECT_GT(last, 1);
@@ -108,14 +108,14 @@ TEST(TwoViewInitializer, ReplacesAReferenceThatIsOutOfSight) {
   const auto add = [&](int index, const Rigid3& pose) {
     return initializer.Add(FrameOf(index, Sense(world, pose, sensor, rng)));
   };
-  EXPECT_EQ(add(0, {}).wait, InitializationWait::kTooFewFrames);
+  EXPECT_EQ(add(0, {}).wait, InitializationStatus::kTooFewFrames);
   const Rigid3 aside{ExpSo3({0, 0.6, 0}), {0, 0, 0}};
-  EXPECT_EQ(add(1, aside).wait, InitializationWait::kTooFewMatches);
-  EXPECT_EQ(add(2, aside).wait, InitializationWait::kTooLittleParallax);
+  EXPECT_EQ(add(1, aside).wait, InitializationStatus::kTooFewMatches);
+  EXPECT_EQ(add(2, aside).wait, InitializationStatus::kTooLittleParallax);
   initializer.Reset();
-  EXPECT_EQ(add(3, aside).wait, InitializationWait::kTooFewFrames);
+  EXPECT_EQ(add(3, aside).wait, InitializationStatus::kTooFewFrames);
   const SyntheticFrame nothing{IndexFeatures(world.camera, {}), {}, {}};
-  EXPECT_EQ(initializer.Add(FrameOf(4, nothing)).wait, InitializationWait::kTooFewFeatures);
+  EXPECT_EQ(initializer.Add(FrameOf(4, nothing)).wait, InitializationStatus::kTooFewFeatures);
 }
 
 TEST(TwoViewImagesInitializer, StartsFromPlacesOnTheImages) {
@@ -124,7 +124,7 @@ TEST(TwoViewImagesInitializer, StartsFromPlacesOnTheImages) {
   TwoViewImagesInitializer initializer(blobs.world.Imaging(), 1);
   for (int i = 0; i < 20; ++i) {
     const auto result = initializer.Add(FrameAt(blobs, PoseOnPath(i), i, rng));
-    EXPECT_EQ(result.map.has_value(), result.wait == InitializationWait::kNone);
+    EXPECT_EQ(result.map.has_value(), result.wait == InitializationStatus::kNone);
     if (!result.map) continue;
     EXPECT_GE(result.matches, 100);
     EXPECT_GE(result.parallax_deg, 1);
@@ -154,7 +154,7 @@ TEST(TwoViewImagesInitializer, KeepsTheReferenceWhileTheCameraStands) {
   ASSERT_TRUE(map);
   EXPECT_EQ(map->views.front().frame.id.value, 0);
   initializer.Reset();
-  EXPECT_EQ(initializer.Add(FrameAt(blobs, {}, 40, rng)).wait, InitializationWait::kTooFewFrames);
+  EXPECT_EQ(initializer.Add(FrameAt(blobs, {}, 40, rng)).wait, InitializationStatus::kTooFewFrames);
 }
 
 // The reference moves to the frame halfway when matches have died out, so that there are more
@@ -169,7 +169,7 @@ TEST(TwoViewImagesInitializer, MovesTheReferenceWhenMatchesDieOut) {
     const Rigid3 turned{ExpSo3({0, 0.06 * i, 0}), {0, 0, 0}};
     const auto result = initializer.Add(FrameAt(blobs, turned, i, rng));
     EXPECT_FALSE(result.map);
-    moved = before.wait == InitializationWait::kTooFewMatches && before.matches > 0 &&
+    moved = before.wait == InitializationStatus::kTooFewMatches && before.matches > 0 &&
             result.matches > 1.5 * before.matches;
     before = result;
   }
@@ -183,7 +183,7 @@ TEST(TwoViewImagesInitializer, AsksForFeaturesAndImages) {
   InitializationFrame frame = FrameAt(blobs, {}, 0, rng);
   const SyntheticFrame nothing{IndexFeatures(blobs.world.camera, {}), {}, {}};
   EXPECT_EQ(initializer.Add({FrameId{0}, 0, nothing.indexed, frame.image}).wait,
-            InitializationWait::kTooFewFeatures);
+            InitializationStatus::kTooFewFeatures);
   frame.image = nullptr;
   EXPECT_THROW(initializer.Add(frame), BugError);
 }

@@ -32,7 +32,7 @@ SavedMap MapAt(const std::vector<std::int64_t>& stamps_ns, const Calibration& ca
   for (const std::int64_t stamp : stamps_ns) {
     KeyFrame keyframe{KeyFrameId{id}, KeyFrameId{id - 1}, {}};
     keyframe.frame.stamp_ns = stamp;
-    keyframe.frame.indexed = std::make_shared<IndexedFeatures>();
+    keyframe.frame.indexed = std::make_shared<FrameFeatures>();
     saved.map.Apply({edit::AddKeyFrame{keyframe}});
     ++id;
   }

@@ -64,7 +64,7 @@ void ExpectSame(const Features& a, const Features& b) {
 void ExpectSame(const KeyFrame& a, const KeyFrame& b) {
   EXPECT_EQ(a.parent, b.parent);
   EXPECT_EQ(a.number, b.number);
-  EXPECT_EQ(a.unit, b.unit);
+  EXPECT_EQ(a.scale, b.scale);
   EXPECT_EQ(a.session, b.session);
   EXPECT_EQ(a.frame.id, b.frame.id);
   EXPECT_EQ(a.frame.stamp_ns, b.frame.stamp_ns);
@@ -127,7 +127,7 @@ void ExpectSame(const Map& a, const Map& b) {
   for (const auto& [id, removed] : a.Record().removed_keyframes) {
     EXPECT_EQ(a.NumberOf(id), b.NumberOf(id));
     EXPECT_EQ(a.ParentOf(id), b.ParentOf(id));
-    EXPECT_EQ(a.PlaceOf(id).unit, b.PlaceOf(id).unit);
+    EXPECT_EQ(a.PlaceOf(id).scale, b.PlaceOf(id).scale);
     EXPECT_EQ(a.PoseOf(id).Matrix(), b.PoseOf(id).Matrix());
   }
   EXPECT_EQ(a.Record().merged_points, b.Record().merged_points);
@@ -143,7 +143,7 @@ TEST(LoadAtlas, GivesBackAllMapsToTheLastBit) {
   EXPECT_EQ(loaded.atlas.active_id(), MapId{0});
   ASSERT_NE(saved.atlas.active().correction(), FeatureCorrection());
   ASSERT_EQ(saved.atlas.active().keyframes().size(), 4U);
-  ASSERT_EQ(saved.atlas.active().Find(KeyFrameId{4})->unit, 2);
+  ASSERT_EQ(saved.atlas.active().Find(KeyFrameId{4})->scale, 2);
   ASSERT_EQ(saved.atlas.active().Current(PointId{5}), PointId{4});
   for (const auto& [id, map] : saved.atlas.maps()) ExpectSame(map, *loaded.atlas.Find(id));
 }

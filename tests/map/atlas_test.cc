@@ -82,7 +82,7 @@ TEST(Atlas, AMapThatIsJoinedMovesAsAWhole) {
   EXPECT_EQ(joined.keyframes().size(), 4U);
   for (const std::int64_t k : {2, 3, 4}) {  // 3 is none any more
     const KeyFrameId id{k};
-    EXPECT_NEAR(joined.PlaceOf(id).unit, 2, 1e-12);
+    EXPECT_NEAR(joined.PlaceOf(id).scale, 2, 1e-12);
     for (const PointId point : {PointId{2}}) {
       const Eigen::Vector3d was = before.PoseOf(id) * before.Find(point)->position;
       const Eigen::Vector3d is = joined.PoseOf(id) * joined.Find(point)->position;

@@ -12,10 +12,10 @@ namespace plumbline {
 namespace {
 
 TEST(WithCorrection, CorrectsACopyAndRemembersTheCorrection) {
-  auto features = std::make_shared<IndexedFeatures>();
+  auto features = std::make_shared<FrameFeatures>();
   features->features.points.resize(1);
   features->features.point_disparity = {Disparity{10, 1}};
-  const std::shared_ptr<const IndexedFeatures> raw = features;
+  const std::shared_ptr<const FrameFeatures> raw = features;
   const FeatureCorrection half{{TestCamera(), 0.5 * Vector6d::Unit(0)}};
   const auto corrected = WithCorrection(raw, half);
   EXPECT_DOUBLE_EQ(raw->features.point_disparity[0]->px, 10);
@@ -41,12 +41,12 @@ TEST(WithCorrection, IndexesPointsWhereTheLensCorrectionPutsThem) {
 }
 
 TEST(WithCorrection, SharesFeaturesThatHaveTheCorrection) {
-  const auto raw = std::make_shared<const IndexedFeatures>();
+  const auto raw = std::make_shared<const FrameFeatures>();
   EXPECT_EQ(WithCorrection(raw, {}), raw);
 }
 
 TEST(WithRightLines, SharesFeaturesThatHaveNoLines) {
-  const auto without = std::make_shared<const IndexedFeatures>();
+  const auto without = std::make_shared<const FrameFeatures>();
   EXPECT_EQ(WithRightLines(without, {}), without);
 }
 

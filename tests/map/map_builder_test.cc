@@ -65,7 +65,7 @@ TEST(MapBuilder, MakesTheMapAgain) {
   for (std::int64_t k = 0; k < 5; ++k) {
     const KeyFrameId id{k};
     EXPECT_EQ(built.PlaceOf(id).cam_from_world.Matrix(), map.PlaceOf(id).cam_from_world.Matrix());
-    EXPECT_EQ(built.PlaceOf(id).unit, map.PlaceOf(id).unit);
+    EXPECT_EQ(built.PlaceOf(id).scale, map.PlaceOf(id).scale);
     EXPECT_EQ(built.ParentOf(id), map.ParentOf(id));
     EXPECT_EQ(built.NumberOf(id), map.NumberOf(id));
   }
@@ -102,8 +102,8 @@ TEST(MapBuilder, RefusesRecordsThatNoMapHas) {
   const auto removed = [&](const std::function<void(RemovedKeyFrame&)>& change) {
     return message([&](MapRecord& r) { change(r.removed_keyframes.at(KeyFrameId{2})); });
   };
-  EXPECT_THAT(removed([&](RemovedKeyFrame& k) { k.unit = nan; }), HasSubstr("a valid place"));
-  EXPECT_THAT(removed([](RemovedKeyFrame& k) { k.from_parent.unit = 0; }),
+  EXPECT_THAT(removed([&](RemovedKeyFrame& k) { k.scale = nan; }), HasSubstr("a valid place"));
+  EXPECT_THAT(removed([](RemovedKeyFrame& k) { k.from_parent.scale = 0; }),
               HasSubstr("valid place"));
   EXPECT_THAT(removed([](RemovedKeyFrame& k) { k.number = 9; }), HasSubstr("a valid place"));
   EXPECT_THAT(removed([](RemovedKeyFrame& k) { k.parent = KeyFrameId{7}; }),
@@ -123,7 +123,7 @@ TEST(MapBuilder, RefusesKeyFramesThatNoMapHas) {
   };
   const auto with_features = [&](const std::function<void(Features&)>& change) {
     return message([&](KeyFrame& k) {
-      auto indexed = std::make_shared<IndexedFeatures>(*k.frame.indexed);
+      auto indexed = std::make_shared<FrameFeatures>(*k.frame.indexed);
       change(indexed->features);
       k.frame.indexed = indexed;
     });
@@ -133,7 +133,7 @@ TEST(MapBuilder, RefusesKeyFramesThatNoMapHas) {
               HasSubstr("without a valid pose"));
   EXPECT_THAT(message([](KeyFrame& k) { k.frame.cam_from_world.rotation.coeffs() *= 2; }),
               HasSubstr("without a valid pose"));
-  EXPECT_THAT(message([](KeyFrame& k) { k.unit = -1; }), HasSubstr("without a valid pose"));
+  EXPECT_THAT(message([](KeyFrame& k) { k.scale = -1; }), HasSubstr("without a valid pose"));
   EXPECT_THAT(message([](KeyFrame& k) { k.number = 5; }), HasSubstr("a count out of range"));
   EXPECT_THAT(message([](KeyFrame& k) { k.parent = KeyFrameId{17}; }), HasSubstr("never was"));
   EXPECT_THAT(message([](KeyFrame& k) { k.parent = k.id; }), HasSubstr("their own ancestors"));

@@ -12,13 +12,13 @@ namespace plumbline {
 constexpr std::size_t kFeatures = 40;  // of each kind in a keyframe of the tests
 
 // Features without content but with descriptors that differ.
-inline std::shared_ptr<const IndexedFeatures> BlankFeatures() {
-  IndexedFeatures indexed;
+inline std::shared_ptr<const FrameFeatures> BlankFeatures() {
+  FrameFeatures indexed;
   indexed.features.points.resize(kFeatures);
   indexed.features.point_disparity.resize(kFeatures);
   indexed.features.lines.resize(kFeatures);
   indexed.features.line_right.resize(kFeatures);
-  return std::make_shared<const IndexedFeatures>(std::move(indexed));
+  return std::make_shared<const FrameFeatures>(std::move(indexed));
 }
 
 inline KeyFrame BlankKeyFrame(std::int64_t id, std::int64_t parent) {

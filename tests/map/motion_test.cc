@@ -154,7 +154,7 @@ TEST(Motion, DepthsAreMultipliedByTheScaleAndImagesStay) {
     const bool disparity = i % 3 == 2;
     EXPECT_NEAR(after[i], disparity ? before[i] / 4 : before[i], 1e-6);
   }
-  EXPECT_EQ(scene.map.Find(KeyFrameId{2})->unit, 4);
+  EXPECT_EQ(scene.map.Find(KeyFrameId{2})->scale, 4);
   EXPECT_EQ(scene.map.Find(PointId{7})->reference_distance, 20);
 }
 
@@ -163,15 +163,15 @@ TEST(Motion, WhatIsKnownRelativeToAKeyFrameFollowsWithItsUnit) {
   scene.map.Apply({scene.All({3, Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero()})});
   // A frame beside keyframe 2, written down in the unit of then.
   const Rigid3 beside = RandomRigid(scene.rng, 0.2, 0.3);
-  const Placement place = scene.map.PlaceOf(KeyFrameId{2});
-  const RelativePose frame{beside * Inverse(place.cam_from_world), place.unit};
+  const KeyFramePose place = scene.map.PlaceOf(KeyFrameId{2});
+  const RelativePose frame{beside * Inverse(place.cam_from_world), place.scale};
   const std::vector<double> before = scene.Seen(beside);
   // Keyframe 2 leaves the map, then the one that it hangs on, and then all of it moves.
   scene.map.Apply({edit::RemoveKeyFrame{KeyFrameId{2}}, edit::RemoveKeyFrame{KeyFrameId{1}}});
   scene.map.Apply({scene.All(RandomSimilarity(scene.rng, 0.5))});
-  const Placement now = scene.map.PlaceOf(KeyFrameId{2});
-  EXPECT_NEAR(now.unit, 1.5, 1e-12);
-  const std::vector<double> after = scene.Seen(PoseBeside(now, frame));
+  const KeyFramePose now = scene.map.PlaceOf(KeyFrameId{2});
+  EXPECT_NEAR(now.scale, 1.5, 1e-12);
+  const std::vector<double> after = scene.Seen(ComposePose(now, frame));
   for (std::size_t i = 0; i < before.size(); ++i) {
     EXPECT_NEAR(after[i], i % 3 == 2 ? before[i] / 0.5 : before[i], 1e-6);
   }
@@ -183,12 +183,12 @@ TEST(Motion, UnitsOfRemovedKeyFramesPassThroughTheirParents) {
   map.Apply({edit::RemoveKeyFrame{KeyFrameId{3}}});
   map.Apply({edit::MoveKeyFrames{
       {{KeyFrameId{2}, {2, Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero()}}}}});
-  EXPECT_EQ(map.PlaceOf(KeyFrameId{3}).unit, 2);
+  EXPECT_EQ(map.PlaceOf(KeyFrameId{3}).scale, 2);
   map.Apply({edit::RemoveKeyFrame{KeyFrameId{2}}});
   map.Apply({edit::MoveKeyFrames{
       {{KeyFrameId{1}, {8, Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero()}}}}});
-  EXPECT_EQ(map.PlaceOf(KeyFrameId{2}).unit, 16);
-  EXPECT_EQ(map.PlaceOf(KeyFrameId{3}).unit, 16);
+  EXPECT_EQ(map.PlaceOf(KeyFrameId{2}).scale, 16);
+  EXPECT_EQ(map.PlaceOf(KeyFrameId{3}).scale, 16);
 }
 
 TEST(Motion, ALandmarkGoesWithTheNewestKeyFrameThatShowsIt) {

@@ -20,14 +20,14 @@ RemovedKeyFrame Beside(
 }
 
 // Where a removed keyframe is when the one that it hangs on is there.
-Placement PlaceOf(const RemovedKeyFrame& removed, const Placement& parent) {
-  return {PoseBeside(parent, removed.from_parent),
-          parent.unit * removed.unit / removed.from_parent.unit};
+KeyFramePose PlaceOf(const RemovedKeyFrame& removed, const KeyFramePose& parent) {
+  return {ComposePose(parent, removed.from_parent),
+          parent.scale * removed.scale / removed.from_parent.scale};
 }
 
-void ExpectSame(const Placement& a, const Placement& b) {
+void ExpectSame(const KeyFramePose& a, const KeyFramePose& b) {
   EXPECT_LT(LogSe3(a.cam_from_world * Inverse(b.cam_from_world)).norm(), 1e-9);
-  EXPECT_NEAR(a.unit, b.unit, 1e-12);
+  EXPECT_NEAR(a.scale, b.scale, 1e-12);
 }
 
 TEST(RemovedKeyFrames, WhatHungOnOneThatGoesHangsOnItsParent) {
@@ -41,8 +41,8 @@ TEST(RemovedKeyFrames, WhatHungOnOneThatGoesHangsOnItsParent) {
   removed.Add(kMiddle, middle);
   EXPECT_EQ(removed.Find(kLast)->parent, kFirst);
   EXPECT_EQ(removed.Find(kLast)->number, 7);
-  const Placement first{RandomRigid(rng), 5};
-  const Placement middle_now = PlaceOf(middle, first);
+  const KeyFramePose first{RandomRigid(rng), 5};
+  const KeyFramePose middle_now = PlaceOf(middle, first);
   ExpectSame(PlaceOf(*removed.Find(kMiddle), first), middle_now);
   ExpectSame(PlaceOf(*removed.Find(kLast), first), PlaceOf(last, middle_now));
   EXPECT_EQ(removed.Find(kFirst), nullptr);

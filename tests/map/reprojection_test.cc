@@ -11,7 +11,7 @@ namespace plumbline {
 namespace {
 
 KeyFrame KeyFrameShowing(int id, const Rigid3& cam_from_world, const Eigen::Vector2d& px) {
-  auto indexed = std::make_shared<IndexedFeatures>();
+  auto indexed = std::make_shared<FrameFeatures>();
   indexed->features.points.resize(1);
   indexed->features.points[0].px = px;
   indexed->features.point_disparity.resize(1);

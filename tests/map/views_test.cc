@@ -127,7 +127,7 @@ TEST(Snapshot, StaysAsItWas) {
 // Keyframe whose point and line feature 0 have a descriptor with so many bits set.
 KeyFrame Looking(std::int64_t id, int bits, int octave) {
   KeyFrame keyframe = BlankKeyFrame(id, id - 1);
-  IndexedFeatures indexed = *keyframe.frame.indexed;
+  FrameFeatures indexed = *keyframe.frame.indexed;
   Descriptor descriptor{};
   for (int b = 0; b < bits; ++b) {
     descriptor[static_cast<std::size_t>(b / 64)] |= std::uint64_t{1} << (b % 64);
@@ -135,7 +135,7 @@ KeyFrame Looking(std::int64_t id, int bits, int octave) {
   indexed.features.points[0].descriptor = descriptor;
   indexed.features.points[0].octave = octave;
   indexed.features.lines[0].descriptor = descriptor;
-  keyframe.frame.indexed = std::make_shared<const IndexedFeatures>(std::move(indexed));
+  keyframe.frame.indexed = std::make_shared<const FrameFeatures>(std::move(indexed));
   return keyframe;
 }
 

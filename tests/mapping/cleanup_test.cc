@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/mapping/landmark_cleanup.h"
+#include "plumbline/mapping/landmark_culling.h"
 
 #include "tests/map/map_fixture.h"
 #include <algorithm>
@@ -35,7 +35,7 @@ Verdict Judge(int visible, int found, std::int64_t newest, int views) {
              edit::AddLine{line},
              edit::ScorePoint{point.id, visible - 1, found - 1},
              edit::ScoreLine{line.id, visible - 1, found - 1}});
-  YoungLandmarks young{{point.id}, {line.id}};
+  RecentLandmarks young{{point.id}, {line.id}};
   const MapEdit edit = RemoveWeakLandmarks(map, KeyFrameId{newest}, young);
   EXPECT_EQ(young.points.size(), young.lines.size());
   EXPECT_TRUE(edit.empty() || edit.size() == 2U);
@@ -63,7 +63,7 @@ TEST(RemoveWeakLandmarks, ForgetsWhatIsGoneAndLeavesTheOldAlone) {
   Map map = ChainOfKeyFrames(8);
   map.Apply(
       {edit::AddPoint{CreatedBy(0, 0, SeenBy(0, 0, 0))}, edit::ScorePoint{PointId{0}, 100, 0}});
-  YoungLandmarks young{{PointId{55}}, {LineId{55}}};
+  RecentLandmarks young{{PointId{55}}, {LineId{55}}};
   EXPECT_TRUE(RemoveWeakLandmarks(map, KeyFrameId{7}, young).empty());
   EXPECT_TRUE(young.points.empty());
   EXPECT_TRUE(young.lines.empty());
@@ -75,10 +75,10 @@ Map Overlapping(int shared, int octave_of_others = 0) {
   Map map;
   for (std::int64_t k = 0; k < 6; ++k) {
     KeyFrame keyframe = BlankKeyFrame(k, k - 1);
-    IndexedFeatures indexed = *keyframe.frame.indexed;
+    FrameFeatures indexed = *keyframe.frame.indexed;
     for (PointFeature& point : indexed.features.points)
       point.octave = k == 2 ? 0 : octave_of_others;
-    keyframe.frame.indexed = std::make_shared<const IndexedFeatures>(std::move(indexed));
+    keyframe.frame.indexed = std::make_shared<const FrameFeatures>(std::move(indexed));
     map.Apply({edit::AddKeyFrame{keyframe}});
   }
   for (int i = 0; i < 20; ++i) {

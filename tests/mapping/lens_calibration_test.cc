@@ -61,12 +61,13 @@ BaProblem DriveRoundABend(double border_px, std::uint64_t seed = 3) {
   return problem;
 }
 
-TEST(LearnLens, FindsWhatTheCalibrationHasLeft) {
+TEST(CalibrateRadialDistortion, FindsWhatTheCalibrationHasLeft) {
   constexpr int kSeeds = 4;
   for (const double border : {3.0, -3.0}) {
     double mean = 0;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-      const double found = LearnLens(DriveRoundABend(border, seed)).correction.border_px();
+      const double found =
+          CalibrateRadialDistortion(DriveRoundABend(border, seed)).correction.border_px();
       EXPECT_NEAR(found, border, 1) << seed;
       mean += found / kSeeds;
     }
@@ -76,34 +77,35 @@ TEST(LearnLens, FindsWhatTheCalibrationHasLeft) {
 
 // What little had taught is corrected by what the whole map says, and taken back where it says the
 // opposite.
-TEST(LearnLens, ChangesWhatIsKnownToWhatThePointsSay) {
-  EXPECT_NEAR(LearnLens(DriveRoundABend(3), 3).correction.border_px(), 3, 1);
-  EXPECT_NEAR(LearnLens(DriveRoundABend(-3), 7).correction.border_px(), -3, 1);
-  EXPECT_EQ(LearnLens(DriveRoundABend(-4), 4).correction.border_px(), -4);
+TEST(CalibrateRadialDistortion, ChangesWhatIsKnownToWhatThePointsSay) {
+  EXPECT_NEAR(CalibrateRadialDistortion(DriveRoundABend(3), 3).correction.border_px(), 3, 1);
+  EXPECT_NEAR(CalibrateRadialDistortion(DriveRoundABend(-3), 7).correction.border_px(), -3, 1);
+  EXPECT_EQ(CalibrateRadialDistortion(DriveRoundABend(-4), 4).correction.border_px(), -4);
   // These points do not tell whether half of a pixel is left, or all of it.
-  EXPECT_EQ(LearnLens(DriveRoundABend(0), 0.5).correction.border_px(), 0);
-  EXPECT_EQ(LearnLens(DriveRoundABend(-0.5), 0.5).correction.border_px(), 0);
+  EXPECT_EQ(CalibrateRadialDistortion(DriveRoundABend(0), 0.5).correction.border_px(), 0);
+  EXPECT_EQ(CalibrateRadialDistortion(DriveRoundABend(-0.5), 0.5).correction.border_px(), 0);
 }
 
-TEST(LearnLens, LeavesAGoodCalibrationAlone) {
-  EXPECT_EQ(LearnLens(DriveRoundABend(0)).correction.border_px(), 0);
+TEST(CalibrateRadialDistortion, LeavesAGoodCalibrationAlone) {
+  EXPECT_EQ(CalibrateRadialDistortion(DriveRoundABend(0)).correction.border_px(), 0);
   // Less than what the deviations of corners allow for in any case.
-  EXPECT_EQ(LearnLens(DriveRoundABend(0.4)).correction.border_px(), 0);
+  EXPECT_EQ(CalibrateRadialDistortion(DriveRoundABend(0.4)).correction.border_px(), 0);
 }
 
-TEST(LearnLens, IsForOneCameraAlone) {
+TEST(CalibrateRadialDistortion, IsForOneCameraAlone) {
   BaProblem problem = DriveRoundABend(3);
   problem.camera.baseline = 0.5;
-  EXPECT_EQ(LearnLens(problem).correction.border_px(), 0);
+  EXPECT_EQ(CalibrateRadialDistortion(problem).correction.border_px(), 0);
   problem.point_observations.clear();
   problem.camera.baseline = 0;
-  EXPECT_EQ(LearnLens(problem).correction.border_px(), 0);
+  EXPECT_EQ(CalibrateRadialDistortion(problem).correction.border_px(), 0);
 }
 
-TEST(LearnLens, FindsNothingWhenItIsStopped) {
+TEST(CalibrateRadialDistortion, FindsNothingWhenItIsStopped) {
   int questions = 0;
-  EXPECT_EQ(
-      LearnLens(DriveRoundABend(3), 0, [&] { return ++questions > 3; }).correction.border_px(), 0);
+  EXPECT_EQ(CalibrateRadialDistortion(DriveRoundABend(3), 0, [&] { return ++questions > 3; })
+                .correction.border_px(),
+            0);
 }
 
 TEST(CorrectLens, TakesPointsAndLinesOfTheLeftImagesToTheirPlaces) {

@@ -96,7 +96,7 @@ class MapperRun {
   void Displace(Frame& frame) const {
     Vector6d k;
     k << 0.2, 0.4, -0.3, -0.8, 0.3, 0.2;
-    auto displaced = std::make_shared<IndexedFeatures>(*frame.indexed);
+    auto displaced = std::make_shared<FrameFeatures>(*frame.indexed);
     Correct({{world_.camera, k}}, {}, displaced->features);
     frame.indexed = displaced;
   }

@@ -27,7 +27,7 @@ TrueMap Scene(const SyntheticWorld& world, const SensorModel& sensor) {
   Map displaced;
   for (const auto& [id, keyframe] : scene.map.keyframes()) {
     KeyFrame copy = keyframe;
-    auto indexed = std::make_shared<IndexedFeatures>(*keyframe.frame.indexed);
+    auto indexed = std::make_shared<FrameFeatures>(*keyframe.frame.indexed);
     Correct({Displacement(world.camera)}, {}, indexed->features);
     copy.frame.indexed = indexed;
     copy.frame.points.assign(copy.frame.points.size(), PointId{});

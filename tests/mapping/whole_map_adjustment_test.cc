@@ -43,7 +43,7 @@ TEST(AdjustWholeMap, BringsKeyFramesToTheirPlaces) {
   TrueMap scene = MovedMap(world);
   const double before = WorstPose(scene.map, TruePoses());
   ASSERT_GT(before, 0.004);
-  scene.map.Apply(Rebased(AdjustWholeMap(scene.map, world.Imaging(), {}, {}), scene.map));
+  scene.map.Apply(RebaseCorrection(AdjustWholeMap(scene.map, world.Imaging(), {}, {}), scene.map));
   scene.map.CheckInvariants();
   EXPECT_LT(WorstPose(scene.map, TruePoses()), 0.4 * before);
   EXPECT_LT(CentreDistance(scene.map.Find(KeyFrameId{0})->frame.cam_from_world, PoseOnPath(0)),
@@ -69,14 +69,14 @@ TrueMap MapThroughALens(SyntheticWorld& world, double border_px) {
 TEST(AdjustWholeMap, LearnsWhatIsLeftOfTheLens) {
   SyntheticWorld world = MakeSyntheticWorld(600, 0);
   TrueMap scene = MapThroughALens(world, 12);
-  const Correction learned = AdjustWholeMap(scene.map, world.Imaging(), {}, {});
+  const MapCorrection learned = AdjustWholeMap(scene.map, world.Imaging(), {}, {});
   ASSERT_TRUE(learned.lens);
   EXPECT_NEAR(learned.lens->border_px(), 12, 3);
   MappingOptions fixed;
   fixed.lens_calibration = false;
   EXPECT_FALSE(AdjustWholeMap(scene.map, world.Imaging(), {}, fixed).lens);
 
-  scene.map.Apply(Rebased(learned, scene.map));
+  scene.map.Apply(RebaseCorrection(learned, scene.map));
   EXPECT_EQ(scene.map.correction().lens, *learned.lens);
   EXPECT_FALSE(AdjustWholeMap(scene.map, world.Imaging(), {}, {}).lens);
   EXPECT_LT(WorstPose(scene.map, TruePoses()), 0.02);
@@ -86,13 +86,14 @@ TEST(AdjustToLens, LeavesTheNewestKeyFrameInItsPlace) {
   SyntheticWorld world = MakeSyntheticWorld(600, 0);
   TrueMap scene = MapThroughALens(world, 12);
   const Rigid3 before = scene.map.keyframes().rbegin()->second.frame.cam_from_world;
-  const Correction learned = AdjustToLens(scene.map, world.Imaging(), LineOptions().weights(), {});
+  const MapCorrection learned =
+      AdjustToLens(scene.map, world.Imaging(), LineOptions().weights(), {});
   ASSERT_TRUE(learned.lens);
   EXPECT_NEAR(learned.lens->border_px(), 12, 3);
   const auto& [newest, place] = *learned.keyframes.rbegin();
   EXPECT_LT(LogSe3(place.after * Inverse(before)).norm(), 1e-9);
   EXPECT_NEAR(place.scale, 1, 1e-9);
-  scene.map.Apply(Rebased(learned, scene.map));
+  scene.map.Apply(RebaseCorrection(learned, scene.map));
   scene.map.CheckInvariants();
   EXPECT_TRUE(AdjustToLens(scene.map, world.Imaging(), LineOptions().weights(), {}).empty());
 }
@@ -101,7 +102,8 @@ TEST(AdjustToLens, TakesBackWhatThePointsContradict) {
   SyntheticWorld world = MakeSyntheticWorld(600, 0);
   TrueMap scene = MapThroughALens(world, 0);
   scene.map.Apply({edit::CorrectFeatures{{{}, {world.camera, 4}}}});
-  const Correction learned = AdjustToLens(scene.map, world.Imaging(), LineOptions().weights(), {});
+  const MapCorrection learned =
+      AdjustToLens(scene.map, world.Imaging(), LineOptions().weights(), {});
   ASSERT_TRUE(learned.lens);
   EXPECT_EQ(*learned.lens, LensCorrection());
 }
@@ -113,12 +115,12 @@ TEST(BringToLens, AdjustsAMapToTheLensOfAnother) {
   const auto bring = [&] {
     return BringToLens(scene.map, world.Imaging(), LineOptions().weights(), {}, lens);
   };
-  const Correction correction = bring();
+  const MapCorrection correction = bring();
   ASSERT_TRUE(correction.lens);
   EXPECT_EQ(*correction.lens, lens);
   const Rigid3 newest = scene.map.keyframes().rbegin()->second.frame.cam_from_world;
   EXPECT_LT(LogSe3(correction.keyframes.rbegin()->second.after * Inverse(newest)).norm(), 1e-9);
-  scene.map.Apply(Rebased(correction, scene.map));
+  scene.map.Apply(RebaseCorrection(correction, scene.map));
   EXPECT_TRUE(bring().empty()) << "it has that lens";
   double worst = 0;
   for (const auto& [id, point] : scene.map.points()) {
@@ -148,7 +150,7 @@ TEST(AdjustWholeMap, ChangesNothingWhenItIsStopped) {
   const SyntheticWorld world = MakeSyntheticWorld(150, 30);
   const TrueMap scene = MovedMap(world);
   int questions = 0;
-  const Correction whole =
+  const MapCorrection whole =
       AdjustWholeMap(scene.map, world.Imaging(), {}, {}, [&] { return ++questions < 0; });
   EXPECT_FALSE(whole.empty());
   EXPECT_GT(questions, 10) << "before every line and every iteration";
@@ -164,7 +166,7 @@ TEST(AdjustWholeMap, NeedsNoPoints) {
   const SyntheticWorld world = MakeSyntheticWorld(0, 150);
   TrueMap scene = MovedMap(world);
   const double before = WorstPose(scene.map, TruePoses());
-  scene.map.Apply(Rebased(AdjustWholeMap(scene.map, world.Imaging(), {}, {}), scene.map));
+  scene.map.Apply(RebaseCorrection(AdjustWholeMap(scene.map, world.Imaging(), {}, {}), scene.map));
   EXPECT_LT(WorstPose(scene.map, TruePoses()), 0.7 * before);
 }
 
@@ -174,7 +176,7 @@ TEST(AdjustWholeMap, LeavesKeyFramesInTheirPlacesThatNothingFixes) {
   TrueMap scene = MovedMap(world);
   const Map before = scene.map;
   ASSERT_FALSE(MakeLineMap(before, world.Imaging(), {}).empty());
-  scene.map.Apply(Rebased(AdjustWholeMap(scene.map, world.Imaging(), {}, {}), scene.map));
+  scene.map.Apply(RebaseCorrection(AdjustWholeMap(scene.map, world.Imaging(), {}, {}), scene.map));
   for (const auto& [id, keyframe] : scene.map.keyframes()) {
     const Rigid3& old = before.Find(id)->frame.cam_from_world;
     EXPECT_LT(LogSe3(keyframe.frame.cam_from_world * Inverse(old)).norm(), 1e-9) << id.value;
@@ -195,7 +197,7 @@ TEST(AdjustWholeMap, KeepsHalvesTogetherThatParallelLinesTie) {
   }
   scene.map.Apply(edit);
   const Map before = scene.map;
-  scene.map.Apply(Rebased(AdjustWholeMap(scene.map, world.Imaging(), {}, {}), scene.map));
+  scene.map.Apply(RebaseCorrection(AdjustWholeMap(scene.map, world.Imaging(), {}, {}), scene.map));
   const auto motion = [](const Map& map) {
     return map.Find(KeyFrameId{5})->frame.cam_from_world *
            Inverse(map.Find(KeyFrameId{4})->frame.cam_from_world);
@@ -207,7 +209,7 @@ TEST(AdjustWholeMap, MovesALineLandmarkWithTheNewestKeyFrameThatShowsIt) {
   const SyntheticWorld world = MakeSyntheticWorld(150, 100);
   TrueMap scene = MovedMap(world);
   const Map before = scene.map;
-  scene.map.Apply(Rebased(AdjustWholeMap(scene.map, world.Imaging(), {}, {}), scene.map));
+  scene.map.Apply(RebaseCorrection(AdjustWholeMap(scene.map, world.Imaging(), {}, {}), scene.map));
   for (const auto& [id, line] : scene.map.lines()) {
     const MapLine& old = *before.Find(id);
     const KeyFrameId newest = line.observations.newest().first;
@@ -249,10 +251,10 @@ void ForgetAfterFourKeyFrames(TrueMap& scene) {
 void ExpectAdjustedPosesToBeBetter(const SyntheticWorld& world,
                                    const MappingOptions& options,
                                    TrueMap& scene) {
-  const Correction correction = AdjustWholeMap(scene.map, world.Imaging(), {}, options);
+  const MapCorrection correction = AdjustWholeMap(scene.map, world.Imaging(), {}, options);
   ASSERT_FALSE(correction.empty());
   const double before = WorstPose(scene.map, TruePoses());
-  scene.map.Apply(Rebased(correction, scene.map));
+  scene.map.Apply(RebaseCorrection(correction, scene.map));
   EXPECT_LT(WorstPose(scene.map, TruePoses()), 0.8 * before);
 }
 

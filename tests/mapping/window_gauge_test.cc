@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/mapping/ba_window.h"
+#include "plumbline/mapping/local_ba_window.h"
 
 #include "tests/support/true_map.h"
 #include <algorithm>
@@ -43,17 +43,17 @@ struct Scene {
   }
 
   // Around the newest keyframe.
-  BaWindow Window() const {
-    return MakeBaWindow(scene.map, world.Imaging(), KeyFrameId{kKeyFrames - 1}, {}, options);
+  LocalBaWindow Window() const {
+    return MakeLocalBaWindow(scene.map, world.Imaging(), KeyFrameId{kKeyFrames - 1}, {}, options);
   }
 
   SyntheticWorld world = MakeSyntheticWorld(300, 40);
   TrueMap scene;
-  BaWindowOptions options;
+  LocalBaWindowOptions options;
 };
 
 Ids Fixed(double baseline, const Ids& held) {
-  const BaWindow window = Scene(baseline, held).Window();
+  const LocalBaWindow window = Scene(baseline, held).Window();
   EXPECT_EQ(window.keyframes.size(), kKeyFrames - 1U);
   Ids fixed;
   for (std::size_t i = 0; i < window.keyframes.size(); ++i) {
@@ -62,7 +62,7 @@ Ids Fixed(double baseline, const Ids& held) {
   return fixed;
 }
 
-TEST(BaWindow, CountsFixedPosesBetweenFreeOnesToTheGauge) {
+TEST(LocalBaWindow, CountsFixedPosesBetweenFreeOnesToTheGauge) {
   const double stereo = TestCamera().baseline;
   EXPECT_EQ(Fixed(0, {}), (Ids{{1}, {2}}));
   EXPECT_EQ(Fixed(0, {{3}}), (Ids{{1}, {3}})) << "the oldest and the one that was fixed";
@@ -90,13 +90,13 @@ void Enlarge(Map& map, KeyFrameId eye, const Ids& keyframes) {
   map.Apply(edit);
 }
 
-TEST(BaWindow, TwoPosesBetweenFreeOnesHoldTheScaleOfASingleCamera) {
+TEST(LocalBaWindow, TwoPosesBetweenFreeOnesHoldTheScaleOfASingleCamera) {
   const Ids held{{3}, {5}};
   Scene s(0, held);
   Map& map = s.scene.map;
   Enlarge(map, {3}, {{1}, {2}, {4}, {6}});
   const double before = WorstPose(map, TruePoses());
-  const BaWindow window = s.Window();
+  const LocalBaWindow window = s.Window();
   map.Apply(ToEdit(map, s.world.Imaging(), window, SolveLocalBa(window.problem, {})));
   EXPECT_LT(WorstPose(map, TruePoses()), 0.1 * before);
   for (const KeyFrameId id : held) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/optimization/local_ba.h"
+#include "plumbline/optimization/bundle_adjustment.h"
 
 #include "tests/optimization/ba_scene.h"
 #include <algorithm>

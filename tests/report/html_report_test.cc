@@ -263,7 +263,7 @@ TEST(HtmlReport, HasSamplesOfImagesThatAreVeryFlatOrVeryHigh) {
   for (const Sizes& sizes : {Sizes{{4000, 1}, {1280, 1}}, Sizes{{2, 66'000}, {2, 65'500}}}) {
     FrameView view;
     view.images.left = GrayImage(sizes.image.width, sizes.image.height, 77);
-    view.frame.indexed = std::make_shared<const IndexedFeatures>();
+    view.frame.indexed = std::make_shared<const FrameFeatures>();
     const SampleImage sample = MakeSampleImage(view, "overlay_000000.png");
     EXPECT_EQ(sample.width, sizes.image.width);
     EXPECT_EQ(sample.height, sizes.image.height);

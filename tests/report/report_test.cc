@@ -49,10 +49,10 @@ TEST(FormatFrames, OneRowForEveryFrame) {
   FrameRecord hurried = TimedFrame(3, {});
   hurried.status = FrameStatus::kTracked;
   hurried.map = MapId{2};
-  hurried.shed = Shed::kLines;
+  hurried.shed = LoadLevel::kLines;
   FrameRecord dropped = TimedFrame(4, {});
   dropped.reason = "dropped";
-  dropped.shed = Shed::kFrame;
+  dropped.shed = LoadLevel::kFrame;
   Atlas atlas;
   for (int map = 0; map < 3; ++map) atlas.Start();
   atlas.Join(MapId{1}, MapId{2}, {});
@@ -137,7 +137,7 @@ TEST(SecondsSinceProcessStart, GoesOnWithTime) {
 TEST(CountRun, TellsDroppedFramesFromOthersThatWereSkipped) {
   System system(MovingPoster::MakeCalibration(), SlamOptions{});
   system.Skip(MovingPoster::StampNs(0), "image_unreadable");
-  system.Skip(MovingPoster::StampNs(1), Pipeline::kDropped, Shed::kFrame);
+  system.Skip(MovingPoster::StampNs(1), Pipeline::kDropped, LoadLevel::kFrame);
   system.Finish();
   const RunCounts counts = CountRun(system);
   EXPECT_EQ(counts.skipped, 2);

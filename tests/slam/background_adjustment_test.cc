@@ -4,7 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/mapping/local_mapper.h"
-#include "plumbline/slam/keyframes_ahead.h"
+#include "plumbline/slam/pending_keyframes.h"
 #include "plumbline/tracking/tracker.h"
 
 #include "tests/support/true_map.h"
@@ -23,8 +23,8 @@ using Worker = BackgroundAdjustment::Worker;
 constexpr Worker kWorkers[] = {Worker::kCaller, Worker::kThread, Worker::kThreadOfLowPriority};
 
 // Says which map it was asked about: the oldest keyframe's id is the number of keyframes.
-Correction CountKeyFrames(const Map& map, const StopCheck&) {
-  Correction correction;
+MapCorrection CountKeyFrames(const Map& map, const StopCheck&) {
+  MapCorrection correction;
   correction.keyframes[KeyFrameId{static_cast<std::int64_t>(map.keyframes().size())}] = {};
   return correction;
 }
@@ -76,7 +76,7 @@ TEST(BackgroundAdjustment, IsStoppedWhenItIsGivenUp) {
   const auto until_stopped = [&](const Map&, const StopCheck& stop) {
     begun = true;
     while (!stop()) std::this_thread::yield();
-    return Correction();
+    return MapCorrection();
   };
   BackgroundAdjustment adjustment(Worker::kThread);
   adjustment.Begin(MapOf(2), 0, until_stopped);
@@ -95,7 +95,7 @@ TEST(BackgroundAdjustment, DoesNotWaitForOneThatIsSlowToStop) {
       begun.count_down();
       may_end.wait();
       ended = true;
-      return Correction();
+      return MapCorrection();
     };
     {
       BackgroundAdjustment adjustment(worker);
@@ -120,7 +120,7 @@ TEST(BackgroundAdjustment, TellsOneThatGivesWayToStop) {
   const auto until_stopped = [&](const Map&, const StopCheck& stop) {
     while (!stop()) std::this_thread::yield();
     stopped.set_value();
-    return Correction();
+    return MapCorrection();
   };
   BackgroundAdjustment adjustment(Worker::kThread);
   adjustment.Begin(MapOf(2), 0, until_stopped);
@@ -141,7 +141,7 @@ TEST(BackgroundAdjustment, IsTakenWhenItIsReady) {
 TEST(BackgroundAdjustment, TakingRethrowsWhatTheComputationThrew) {
   for (const Worker worker : kWorkers) {
     BackgroundAdjustment adjustment(worker);
-    adjustment.Begin(MapOf(2), 0, [](const Map&, const StopCheck&) -> Correction {
+    adjustment.Begin(MapOf(2), 0, [](const Map&, const StopCheck&) -> MapCorrection {
       throw std::runtime_error("no memory");
     });
     EXPECT_THROW(adjustment.TakeDue(0), std::runtime_error);
@@ -169,8 +169,8 @@ class GrowingMap {
     mapper_.Add(map_, SettledIn(map_, added), {});
   }
   // Bends the map: each keyframe is turned and shifted a little more than the one before.
-  Correction Bend() const {
-    Correction correction;
+  MapCorrection Bend() const {
+    MapCorrection correction;
     for (const auto& [id, keyframe] : map_.keyframes()) {
       const double k = static_cast<double>(keyframe.number);
       Vector6d twist;
@@ -180,7 +180,7 @@ class GrowingMap {
     }
     return correction;
   }
-  void Apply(const Correction& correction) { map_.Apply(Rebased(correction, map_)); }
+  void Apply(const MapCorrection& correction) { map_.Apply(RebaseCorrection(correction, map_)); }
   const Map& map() const { return map_; }
 
  private:
@@ -199,7 +199,7 @@ TEST(BackgroundAdjustment, TearsNothingHoweverLateItTakesEffect) {
   constexpr int kLatest = 50;
   GrowingMap begun;
   for (int k = 0; k < kBefore; ++k) begun.Add();
-  const Correction correction = begun.Bend();
+  const MapCorrection correction = begun.Bend();
   const auto grown = [&](int delay) {
     GrowingMap map = begun;
     for (int k = 0; k <= kLatest; ++k) {

@@ -32,7 +32,7 @@ FrameRecord ARecord(std::int64_t id, Rng& rng) {
   }
   record.counts = {70'000, 3, 60'000, 2};
   record.keyframe = id % 2 == 1;
-  record.shed = static_cast<Shed>(id % 5);
+  record.shed = static_cast<LoadLevel>(id % 5);
   record.demoted = id % 7 == 0;
   for (std::int64_t k = 0; k < id % 4; ++k) {
     record.times.push_back({k % 2 == 0 ? "track" : "map_take_in", 0.25 * static_cast<double>(k)});
@@ -49,7 +49,7 @@ void ExpectSame(const FrameRecord& a, const FrameRecord& b) {
   EXPECT_EQ(a.reference, b.reference);
   EXPECT_EQ(a.from_reference.cam_from_keyframe.Matrix(),
             b.from_reference.cam_from_keyframe.Matrix());
-  EXPECT_EQ(a.from_reference.unit, b.from_reference.unit);
+  EXPECT_EQ(a.from_reference.scale, b.from_reference.scale);
   ASSERT_EQ(a.causal_world_from_camera.has_value(), b.causal_world_from_camera.has_value());
   if (a.causal_world_from_camera) {
     EXPECT_EQ(a.causal_world_from_camera->Matrix(), b.causal_world_from_camera->Matrix());

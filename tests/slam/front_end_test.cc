@@ -18,7 +18,7 @@ namespace {
 
 TEST(FrontEnd, MeasuresPointsAndLinesWithDisparities) {
   const FrontEnd front_end(MovingPoster::MakeCalibration(), {});
-  const MeasuredFrame measured = front_end.Measure(MovingPoster().Frame(2));
+  const ExtractedFrame measured = front_end.Measure(MovingPoster().Frame(2));
   EXPECT_EQ(measured.stamp_ns, MovingPoster::StampNs(2));
   EXPECT_EQ(measured.images.left.width(), MovingPoster::kWidth);
   const Features& features = measured.indexed->features;
@@ -32,8 +32,8 @@ TEST(FrontEnd, MeasuresPointsAndLinesWithDisparities) {
 
 TEST(FrontEnd, FindsLinesInTheRightImageWhenAsked) {
   const FrontEnd front_end(MovingPoster::MakeCalibration(), {});
-  const MeasuredFrame measured = front_end.Measure(MovingPoster().Frame(2));
-  const auto found = [](const IndexedFeatures& indexed) {
+  const ExtractedFrame measured = front_end.Measure(MovingPoster().Frame(2));
+  const auto found = [](const FrameFeatures& indexed) {
     const auto& right = indexed.features.line_right;
     return std::count_if(right.begin(), right.end(), [](const auto& r) { return r.has_value(); });
   };
@@ -54,7 +54,7 @@ TEST(FrontEnd, KeepsThePyramidOfASingleCamera) {
   frame.right.reset();
   FeatureOptions options;
   options.orb.scale_factor = 1.3;
-  const MeasuredFrame measured = FrontEnd(calibration, options).Measure(std::move(frame));
+  const ExtractedFrame measured = FrontEnd(calibration, options).Measure(std::move(frame));
   ASSERT_NE(measured.left_pyramid, nullptr);
   const ImagePyramid anew = BuildOrbPyramid(measured.images.left, options.orb);
   ASSERT_EQ(measured.left_pyramid->size(), anew.size());
@@ -75,8 +75,8 @@ TEST(FrontEnd, GivesTheSameFeaturesInEveryThread) {
   const MovingPoster poster;
   const auto measure = [&] { return front_end.Measure(poster.Frame(1)); };
   auto other = std::async(std::launch::async, measure);
-  const MeasuredFrame a = measure();
-  const MeasuredFrame b = other.get();
+  const ExtractedFrame a = measure();
+  const ExtractedFrame b = other.get();
   const auto& points_a = a.indexed->features.points;
   const auto& points_b = b.indexed->features.points;
   ASSERT_EQ(points_a.size(), points_b.size());
@@ -90,7 +90,7 @@ TEST(FrontEnd, ItsClockGoesOn) {
   const FrontEnd front_end(MovingPoster::MakeCalibration(), {});
   StageClock clock;
   clock.Done("wait");
-  MeasuredFrame measured = front_end.Measure(MovingPoster().Frame(0), clock);
+  ExtractedFrame measured = front_end.Measure(MovingPoster().Frame(0), clock);
   const std::vector<StageTime> times = measured.clock.Finish();
   ASSERT_EQ(times.size(), 4U);
   EXPECT_EQ(times[0].stage, "wait");

@@ -68,7 +68,7 @@ class SimulatedRun {
   int CountStatus(FrameStatus status) const {
     return Count([&](const FrameRecord& r) { return r.status == status; });
   }
-  int CountShed(Shed shed) const {
+  int CountLoadLevel(LoadLevel shed) const {
     return Count([&](const FrameRecord& r) { return r.shed == shed; });
   }
 
@@ -139,7 +139,7 @@ TEST(LiveRun, ShedsNothingWhereThereIsTime) {
   run.Play(60);
   run.Finish();
   EXPECT_EQ(run.CountStatus(FrameStatus::kTracked), 60);
-  EXPECT_EQ(run.CountShed(Shed::kNothing), 60);
+  EXPECT_EQ(run.CountLoadLevel(LoadLevel::kNothing), 60);
   EXPECT_EQ(run.Count([](const FrameRecord& r) { return r.demoted; }), 0);
   ExpectWholeTrajectory(run);
 }
@@ -207,19 +207,20 @@ TEST(LiveRun, ShedsInOrderWhereTrackingIsSlow) {
   SimulatedRun run(Constant(140, 200));
   run.Play(100);
   run.Finish();
-  std::vector<Shed> first;  // in the order in which each was first shed
+  std::vector<LoadLevel> first;  // in the order in which each was first shed
   for (const FrameRecord& record : run.frames()) {
     if (record.status == FrameStatus::kSkipped) {
       EXPECT_EQ(record.reason, Pipeline::kDropped);
-      EXPECT_EQ(record.shed, Shed::kFrame);
+      EXPECT_EQ(record.shed, LoadLevel::kFrame);
       continue;
     }
-    EXPECT_NE(record.shed, Shed::kFrame);
+    EXPECT_NE(record.shed, LoadLevel::kFrame);
     if (std::find(first.begin(), first.end(), record.shed) == first.end())
       first.push_back(record.shed);
   }
   EXPECT_EQ(first,
-            (std::vector<Shed>{Shed::kNothing, Shed::kMapping, Shed::kLines, Shed::kPoints}));
+            (std::vector<LoadLevel>{
+                LoadLevel::kNothing, LoadLevel::kMapping, LoadLevel::kLines, LoadLevel::kPoints}));
   EXPECT_EQ(run.CountStatus(FrameStatus::kLost), 0);
   EXPECT_LE(run.CountStatus(FrameStatus::kSkipped), 68);
   ExpectWholeTrajectory(run);
@@ -230,10 +231,10 @@ TEST(LiveRun, ShedsNothingAnyMoreWhenTheLoadIsGone) {
                     [](int frame) { return frame < 40 ? 800 : 20; }});
   run.Play(80);
   run.Finish();
-  EXPECT_GT(run.CountShed(Shed::kPoints), 0);
+  EXPECT_GT(run.CountLoadLevel(LoadLevel::kPoints), 0);
   const auto& frames = run.frames();
   for (std::size_t i = 70; i < frames.size(); ++i) {
-    EXPECT_EQ(frames[i].shed, Shed::kNothing) << i;
+    EXPECT_EQ(frames[i].shed, LoadLevel::kNothing) << i;
     EXPECT_EQ(frames[i].status, FrameStatus::kTracked) << i;
   }
   ExpectWholeTrajectory(run);

@@ -29,22 +29,22 @@ LoopEdge EdgeOf(std::int64_t query, std::int64_t candidate) {
   return edge;
 }
 
-TEST(JoinBy, PlacesTheYoungerMapAsTheEdgeSays) {
+TEST(JoinMaps, PlacesTheYoungerMapAsTheEdgeSays) {
   for (const auto& [query, candidate] : {std::pair{3, 1}, std::pair{1, 3}}) {
     Atlas atlas = TwoMaps();
     const LoopEdge edge = EdgeOf(query, candidate);
     const Rigid3 oldest = atlas.Find(MapId{0})->PoseOf(KeyFrameId{0});
-    const JoinedMaps joined = JoinBy(edge, atlas);
+    const JoinedMaps joined = JoinMaps(edge, atlas);
     EXPECT_EQ(joined.kept, MapId{0});
     EXPECT_EQ(joined.gone, MapId{1});
     EXPECT_EQ(atlas.active_id(), MapId{0});
     const Map& map = atlas.active();
     EXPECT_EQ(map.keyframes().size(), 4U);
     EXPECT_EQ(map.PoseOf(KeyFrameId{0}).translation, oldest.translation);
-    const Placement query_place = map.PlaceOf(edge.query);
-    const Placement candidate_place = map.PlaceOf(edge.candidate);
+    const KeyFramePose query_place = map.PlaceOf(edge.query);
+    const KeyFramePose candidate_place = map.PlaceOf(edge.candidate);
     const Similarity3 relative =
-        CandidateFromQueryToday(edge, query_place.unit, candidate_place.unit);
+        CandidateFromQueryToday(edge, query_place.scale, candidate_place.scale);
     EXPECT_NEAR(relative.scale, 1, 1e-12);
     const Rigid3 found = candidate_place.cam_from_world * Inverse(query_place.cam_from_world);
     EXPECT_LT((found.translation - relative.translation).norm(), 1e-12);
@@ -52,10 +52,10 @@ TEST(JoinBy, PlacesTheYoungerMapAsTheEdgeSays) {
   }
 }
 
-TEST(JoinBy, IsForEdgesBetweenTwoMaps) {
+TEST(JoinMaps, IsForEdgesBetweenTwoMaps) {
   Atlas atlas = TwoMaps();
-  EXPECT_THROW(JoinBy(EdgeOf(1, 0), atlas), BugError);
-  EXPECT_THROW(JoinBy(EdgeOf(7, 0), atlas), BugError);
+  EXPECT_THROW(JoinMaps(EdgeOf(1, 0), atlas), BugError);
+  EXPECT_THROW(JoinMaps(EdgeOf(7, 0), atlas), BugError);
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include "plumbline/slam/map_merge.h"
 
 #include "plumbline/geometry/alignment.h"
-#include "plumbline/map/gathering.h"
+#include "plumbline/map/combined_atlases.h"
 
-#include "tests/loop/loop_scene.h"
+#include "tests/loop_closing/loop_scene.h"
 #include "tests/support/synthetic_run.h"
 #include <numbers>
 #include <utility>
@@ -50,10 +50,10 @@ SavedAtlas AtlasOf(Map map) {
 
 Expected<MergedMaps, MergeRefusal> Merged(const SavedAtlas& first,
                                           const SavedAtlas& second,
-                                          const ImagingModel& imaging) {
-  const GatheredAtlases gathered = Gather(first, second);
+                                          const CameraAndPyramid& imaging) {
+  const CombinedAtlases gathered = CombineAtlases(first, second);
   const Atlas& atlas = gathered.saved.atlas;
-  return MergeBySight(atlas, atlas.active_id(), gathered.second, imaging, WithoutLoops());
+  return MergeMaps(atlas, atlas.active_id(), gathered.second, imaging, WithoutLoops());
 }
 
 // The absolute trajectory error of the keyframes, of which `true_pose` tells cam_from_world [m].
@@ -77,7 +77,7 @@ std::size_t SharedPoints(const Map& map, KeyFrameId first_of_second) {
   return shared;
 }
 
-TEST(MergeBySight, MakesOneMapOfTwoHalvesThatOverlap) {
+TEST(MergeMaps, MakesOneMapOfTwoHalvesThatOverlap) {
   const SyntheticWorld world = testing::loop_scene_detail::MakeWorld({});
   constexpr int kSecondBegins = 130;
   const SavedAtlas first = MapOfFrames(world, 0, 190);
@@ -105,7 +105,7 @@ TEST(MergeBySight, MakesOneMapOfTwoHalvesThatOverlap) {
 }
 
 // A map of one camera that drifted, in a world and a unit of its own.
-TEST(MergeBySight, FindsTheUnitOfAnotherMapOfOneCamera) {
+TEST(MergeMaps, FindsTheUnitOfAnotherMapOfOneCamera) {
   LoopSceneOptions options;
   options.sensor.depth = false;
   options.keyframes = 30;
@@ -126,7 +126,7 @@ TEST(MergeBySight, FindsTheUnitOfAnotherMapOfOneCamera) {
   EXPECT_GT(merged->first_from_second.scale, 2);
 }
 
-TEST(MergeBySight, RefusesMapsOfDifferentPlaces) {
+TEST(MergeMaps, RefusesMapsOfDifferentPlaces) {
   const SyntheticWorld world = testing::loop_scene_detail::MakeWorld({});
   const auto merged =
       Merged(MapOfFrames(world, 0, 60), MapOfFrames(world, 150, 210), world.Imaging());
@@ -135,7 +135,7 @@ TEST(MergeBySight, RefusesMapsOfDifferentPlaces) {
 }
 
 // The second map may be of either half of the way round.
-TEST(MergeBySight, RefusesToChooseBetweenPlacesThatLookAlike) {
+TEST(MergeMaps, RefusesToChooseBetweenPlacesThatLookAlike) {
   LoopSceneOptions options;
   options.alike_sectors = 2;
   options.keyframes = 38;
@@ -147,7 +147,7 @@ TEST(MergeBySight, RefusesToChooseBetweenPlacesThatLookAlike) {
   EXPECT_EQ(merged.error(), MergeRefusal::kAmbiguous);
 }
 
-TEST(MergeBySight, RefusesMapsOfOneKeyFrame) {
+TEST(MergeMaps, RefusesMapsOfOneKeyFrame) {
   LoopSceneOptions options;
   options.keyframes = 1;
   const testing::LoopScene scene = testing::MakeLoopScene(options);

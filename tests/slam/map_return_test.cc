@@ -60,7 +60,7 @@ class Show {
   int shown_ = 0;
 };
 
-TEST(MapReturn, TheMapWhereTheCameraIsFoundGrowsAgain) {
+TEST(SwitchMap, TheMapWhereTheCameraIsFoundGrowsAgain) {
   Show show(RunMode::kInline);
   show.AwayAndBack();
   EXPECT_EQ(show.Newest().status, FrameStatus::kTracked);
@@ -82,7 +82,7 @@ TEST(MapReturn, TheMapWhereTheCameraIsFoundGrowsAgain) {
   }
 }
 
-TEST(MapReturn, PosesAreInTheWorldOfThatMap) {
+TEST(SwitchMap, PosesAreInTheWorldOfThatMap) {
   Show show(RunMode::kInline);
   show.AwayAndBack();
   show.system().Finish();
@@ -95,7 +95,7 @@ TEST(MapReturn, PosesAreInTheWorldOfThatMap) {
 
 // For one frame the camera sees the other map's place, and it is lost again before the answer is
 // there.
-TEST(MapReturn, AnAnswerIsOldWhereTheCameraWasTrackedSince) {
+TEST(SwitchMap, AnAnswerIsOldWhereTheCameraWasTrackedSince) {
   for (const RunMode mode : {RunMode::kInline, RunMode::kLockstep}) {
     SlamOptions options = InMode(mode);
     options.slam.lag = 2;
@@ -117,7 +117,7 @@ TEST(MapReturn, AnAnswerIsOldWhereTheCameraWasTrackedSince) {
 }
 
 // A map that is only read stays as it was saved, the one that would grow included.
-TEST(MapReturn, ARunThatChangesNothingIsFoundInAnyMapOfAnAtlas) {
+TEST(SwitchMap, ARunThatChangesNothingIsFoundInAnyMapOfAnAtlas) {
   Show show(RunMode::kInline);
   show.Stretch(kLeftEnd);
   show.Elsewhere(kAway);
@@ -134,7 +134,7 @@ TEST(MapReturn, ARunThatChangesNothingIsFoundInAnyMapOfAnAtlas) {
   EXPECT_EQ(localized.atlas().active_id(), MapId{1});
 }
 
-TEST(MapReturn, LockstepDoesWhatInlineDoes) {
+TEST(SwitchMap, LockstepDoesWhatInlineDoes) {
   Show alone(RunMode::kInline), beside(RunMode::kLockstep);
   for (Show* show : {&alone, &beside}) {
     show->AwayAndBack();

@@ -50,7 +50,7 @@ TEST(MappingStage, AMapThatBeginsWithSeveralKeyFramesTakesEffectAtOnce) {
   const SyntheticWorld world = MakeMonocularWorld(300, 60);
   const InitialMap initial = InitialMapOf(world, {0, 8, 16});
   MappingStage stage(world.Imaging(), WithLag(5));
-  stage.Submit(16, MakeMapStart(initial, world.Imaging(), Rigid3{}, KeyFrameId{0}));
+  stage.Submit(16, MakeInitialMapEdit(initial, world.Imaging(), Rigid3{}, KeyFrameId{0}));
   const auto snapshot = stage.SnapshotFor(16);
   ASSERT_NE(snapshot, nullptr);
   EXPECT_EQ(snapshot->centre, KeyFrameId{2});
@@ -68,7 +68,7 @@ TEST(MappingStage, ANewMapTakesTheLensOfTheMapBefore) {
   MappingStage stage(world.Imaging(), WithLag(5));
   stage.Continue(std::move(atlas), {});
   const InitialMap initial = InitialMapOf(world, {0, 8, 16});
-  stage.Submit(16, MakeMapStart(initial, world.Imaging(), Rigid3{}, KeyFrameId{0}));
+  stage.Submit(16, MakeInitialMapEdit(initial, world.Imaging(), Rigid3{}, KeyFrameId{0}));
   const auto snapshot = stage.SnapshotFor(16);
   ASSERT_NE(snapshot, nullptr);
   EXPECT_EQ(snapshot->map, MapId{1});
@@ -139,10 +139,10 @@ TEST(MappingStage, ANewMapBeginsAfterTheOldOneIsComplete) {
 }
 
 // The features as a lens shows them that a correction of `border_px` would take away.
-std::shared_ptr<const IndexedFeatures> ThroughALens(
+std::shared_ptr<const FrameFeatures> ThroughALens(
     const RectifiedCamera& camera,
     double border_px,
-    const std::shared_ptr<const IndexedFeatures>& indexed) {
+    const std::shared_ptr<const FrameFeatures>& indexed) {
   Features displaced = indexed->features;
   Correct({{}, {camera, border_px}}, {}, displaced);
   RoundToSinglePrecision(displaced);
@@ -159,7 +159,7 @@ TEST(MappingStage, ALookAtTheMapsDoesNotHastenACorrection) {
     view.frame.indexed = ThroughALens(world.camera, 5, view.frame.indexed);
   }
   MappingStage stage(world.Imaging(), WithLag(1));
-  stage.Submit(60, MakeMapStart(initial, world.Imaging(), Rigid3{}, KeyFrameId{0}));
+  stage.Submit(60, MakeInitialMapEdit(initial, world.Imaging(), Rigid3{}, KeyFrameId{0}));
   Frame frame;
   frame.id = FrameId{64};
   frame.cam_from_world = InMapUnit(PoseOnPath(64));
@@ -172,13 +172,13 @@ TEST(MappingStage, ALookAtTheMapsDoesNotHastenACorrection) {
   constexpr std::int64_t kLongAfter = 1000;
   std::optional<double> seen;
   stage.Submit(kLongAfter,
-               Visit{[&](const Atlas& atlas, const LocalMapper&, const PlaceRecognition&) {
+               MapReader{[&](const Atlas& atlas, const LocalMapper&, const PlaceRecognition&) {
                  seen = atlas.active().correction().lens.border_px();
                }});
   stage.WaitUntilDone();
   EXPECT_EQ(seen, 0);
   EXPECT_EQ(stage.maps().at(MapId{0}).correction().lens.border_px(), 0);
-  stage.Submit(kLongAfter, Sighting{MapId{0}, {}, {}});
+  stage.Submit(kLongAfter, UpdateLocalMapRequest{MapId{0}, {}, {}});
   stage.WaitUntilDone();
   EXPECT_NEAR(stage.maps().at(MapId{0}).correction().lens.border_px(), 5, 2);
 }
@@ -337,7 +337,7 @@ TEST_F(MappingStageStepByStep, EarlierSnapshotsAreOfTheMapInUse) {
   EXPECT_EQ(stage_.EarlierSnapshot(), nullptr);
 }
 
-// A camera that is only localized is found in another map without a MapReturn.
+// A camera that is only localized is found in another map without a SwitchMap.
 TEST_F(MappingStageStepByStep, EarlierSnapshotsAreOfTheMapWhereTheCameraIsFound) {
   stage_.Submit(0, KeyFrameAt(world_, 0, -1), true);
   for (std::int64_t k = 1; k <= 2; ++k) {
@@ -361,7 +361,7 @@ TEST_F(MappingStageStepByStep, ASightingInAMapThatIsNotInUseAnyMoreChangesNothin
   stage_.Submit(0, KeyFrameAt(world_, 0, -1), true);
   const auto snapshot = stage_.SnapshotFor(1);
   ASSERT_FALSE(snapshot->points.empty());
-  const Sighting sighting{MapId{0}, {snapshot->points.front().id}, {}};
+  const UpdateLocalMapRequest sighting{MapId{0}, {snapshot->points.front().id}, {}};
   stage_.Submit(1, sighting);
   auto elsewhere = std::make_shared<MapSnapshot>(*snapshot);
   elsewhere->map = MapId{5};
@@ -377,7 +377,7 @@ TEST_F(MappingStageStepByStep, ASightingInAMapThatIsNotInUseAnyMoreChangesNothin
 
 // Returns how often the adjustment at the end of a live run asks whether to stop, which it does at
 // least once in each of its rounds. `shed` is what was shed of the last task before the end.
-int StepsAtTheEnd(Shed shed) {
+int StepsAtTheEnd(LoadLevel shed) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 40);
   SlamOptions options = WithLag(1, RunMode::kLive);
   options.mapping.ba.rounds = 20;
@@ -389,7 +389,7 @@ int StepsAtTheEnd(Shed shed) {
     EXPECT_TRUE(stage.WorkOnce());
   }
   stage.Lighten(shed);
-  stage.Submit(4, Visit{[](const Atlas&, const LocalMapper&, const PlaceRecognition&) {}});
+  stage.Submit(4, MapReader{[](const Atlas&, const LocalMapper&, const PlaceRecognition&) {}});
   EXPECT_TRUE(stage.WorkOnce());
   int steps = 0;
   stage.Finish([&] {
@@ -400,7 +400,7 @@ int StepsAtTheEnd(Shed shed) {
 }
 
 TEST(MappingStage, LiveNothingIsShedOfTheAdjustmentAtTheEnd) {
-  EXPECT_EQ(StepsAtTheEnd(Shed::kMapping), StepsAtTheEnd(Shed::kNothing));
+  EXPECT_EQ(StepsAtTheEnd(LoadLevel::kMapping), StepsAtTheEnd(LoadLevel::kNothing));
 }
 
 // Poses of a run over the synthetic world, as first reported.

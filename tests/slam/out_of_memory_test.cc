@@ -80,7 +80,7 @@ std::string Contents(const Map& map) {
   const MapRecord record = map.Record();
   Transfer(bytes, record);
   for (const auto& [id, keyframe] : map.keyframes()) {
-    TransferAll(bytes, id, keyframe.parent, keyframe.number, keyframe.unit);
+    TransferAll(bytes, id, keyframe.parent, keyframe.number, keyframe.scale);
     TransferAll(bytes, keyframe.frame.points, keyframe.frame.lines, keyframe.frame.cam_from_world);
   }
   for (const auto& [id, point] : map.points()) {
@@ -211,10 +211,10 @@ class SmallRun {
   }
 
   // Stops at the first failure, and completes what there is.
-  void Go(const std::vector<MeasuredFrame>& frames) {
+  void Go(const std::vector<ExtractedFrame>& frames) {
     try {
-      for (const MeasuredFrame& frame : frames) {
-        system_->Track(MeasuredFrame(frame));
+      for (const ExtractedFrame& frame : frames) {
+        system_->Track(ExtractedFrame(frame));
         ++tracked_;
         system_->Complete();
       }
@@ -239,7 +239,7 @@ class SmallRun {
 };
 
 TEST(OutOfMemory, ARunKeepsWhatItReported) {
-  std::vector<MeasuredFrame> frames;
+  std::vector<ExtractedFrame> frames;
   {
     const SmallRun run;
     const MovingPoster poster;

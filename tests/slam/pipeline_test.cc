@@ -128,7 +128,7 @@ TEST_F(LiveTest, AFrameThatTheCallerLeftOutIsNotDropped) {
   pipeline_->Skip(MovingPoster::StampNs(0), Pipeline::kDropped);
   pipeline_->Finish();
   ASSERT_EQ(system_.frames().size(), 1U);
-  EXPECT_EQ(system_.frames()[0].shed, Shed::kNothing);
+  EXPECT_EQ(system_.frames()[0].shed, LoadLevel::kNothing);
 }
 
 TEST_F(LiveTest, FramesThatCannotBeReadTakeNoPlaceInTheQueue) {

@@ -4,7 +4,7 @@
 
 #include "plumbline/map/covisibility.h"
 
-#include "tests/loop/loop_scene.h"
+#include "tests/loop_closing/loop_scene.h"
 #include "tests/support/synthetic_run.h"
 #include <algorithm>
 #include <cmath>
@@ -207,9 +207,9 @@ TEST(PlaceRecognition, SnapshotsOfAMapThatWasWithdrawnSaySo) {
     MappingStage stage(scene.Imaging(), options);
     stage.Continue(AtlasOf(scene.map), {});
     KeyFrame keyframe = *scene.map.Find(scene.Newest());
-    const Placement parent = scene.map.PlaceOf(keyframe.parent);
+    const KeyFramePose parent = scene.map.PlaceOf(keyframe.parent);
     const RelativePose from_parent{keyframe.frame.cam_from_world * Inverse(parent.cam_from_world),
-                                   parent.unit};
+                                   parent.scale};
     keyframe.id = scene.map.NextKeyFrameId();
     stage.Submit(0, NewKeyFrame{keyframe, {}, from_parent}, false);
     const auto snapshot = stage.SnapshotFor(5);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/measurements.h"
 #include "plumbline/map/map.h"
+#include "plumbline/matching/measurements.h"
 #include "plumbline/optimization/residuals.h"
 
 #include <cstddef>

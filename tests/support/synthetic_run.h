@@ -47,8 +47,8 @@ class SyntheticRun {
   // Starts a map from several frames, the last of which is the next frame.
   TrackingResult Start(const InitialMap& initial, const Vector6d& velocity) {
     next_ = initial.views.back().frame.id.value;
-    const MapStart start =
-        MakeMapStart(initial, world_.Imaging(), Rigid3{}, tracker_.next_keyframe());
+    const InitialMapEdit start =
+        MakeInitialMapEdit(initial, world_.Imaging(), Rigid3{}, tracker_.next_keyframe());
     mapping_.Submit(next_, start);
     return tracker_.StartFrom(*mapping_.SnapshotFor(next_++), velocity);
   }

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/projection_search.h"
 #include "plumbline/base/random.h"
 #include "plumbline/features/grid.h"
 #include "plumbline/features/types.h"
 #include "plumbline/map/frame.h"
+#include "plumbline/matching/projection_search.h"
 
 #include "tests/support/random_geometry.h"
 #include <algorithm>
@@ -34,7 +34,7 @@ struct SyntheticWorld {
   std::vector<Point> points;
   std::vector<Line> lines;
 
-  ImagingModel Imaging() const { return {camera, 1.2}; }
+  CameraAndPyramid Imaging() const { return {camera, 1.2}; }
 };
 
 inline Descriptor RandomDescriptor(Rng& rng) {
@@ -80,7 +80,7 @@ struct SensorModel {
 
 // A frame's features and which landmark of the world each of them is.
 struct SyntheticFrame {
-  std::shared_ptr<const IndexedFeatures> indexed;
+  std::shared_ptr<const FrameFeatures> indexed;
   std::vector<std::size_t> point_truth;
   std::vector<std::size_t> line_truth;
 };

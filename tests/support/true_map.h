@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/line_information.h"
 #include "plumbline/geometry/line_triangulation.h"
 #include "plumbline/map/map.h"
+#include "plumbline/matching/line_information.h"
 
 #include "tests/support/synthetic_world.h"
 #include <algorithm>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/line_options.h"
 #include "plumbline/base/random.h"
 #include "plumbline/geometry/plucker.h"
+#include "plumbline/matching/line_options.h"
 #include "plumbline/tracking/line_cutting.h"
 
 #include <algorithm>

@@ -14,7 +14,7 @@ struct KnownWorld {
   TrueMap scene = MakeTrueMap(world, {PoseOnPath(0), PoseOnPath(20)}, SensorModel{});
   std::shared_ptr<const MapSnapshot> snapshot = TakeSnapshot(scene.map, KeyFrameId{0}, 10);
 
-  std::optional<LocatedFrame> Locate(const IndexedFeatures& image, const Rigid3& predicted) const {
+  std::optional<LocatedFrame> Locate(const FrameFeatures& image, const Rigid3& predicted) const {
     return LocateFrame(world.Imaging(),
                        {world.camera, {}, {}},
                        image,

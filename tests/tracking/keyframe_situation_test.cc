@@ -37,7 +37,7 @@ struct KnownKeyFrame {
   TrueMap scene;
   std::shared_ptr<const MapSnapshot> snapshot;
   Frame frame;
-  FrameAssociation association;
+  LandmarkMatches association;
 };
 
 TEST(KeyFrameSituation, OfTheKeyframeItselfSharesAll) {
@@ -80,7 +80,7 @@ TEST(KeyFrameSituation, ExpectsLessWhereFeaturesAreShed) {
   half.lines.resize(half.lines.size() / 2);
   Rng rng(7);
   known.frame = MakeFrame(FrameId{9}, Rigid3{}, Sense(half, Rigid3{}, {}, rng));
-  known.association = FrameAssociation(known.frame.points.size(), known.frame.lines.size());
+  known.association = LandmarkMatches(known.frame.points.size(), known.frame.lines.size());
   const KeyFrameSituation situation = known.Situation(0.5);
   EXPECT_EQ(situation.share_of_usual, 0.5);
   EXPECT_NEAR(situation.share_of_reference, 0.5, 0.15);

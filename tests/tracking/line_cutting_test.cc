@@ -4,7 +4,7 @@
 
 #include "plumbline/base/random.h"
 #include "plumbline/geometry/plucker.h"
-#include "plumbline/optimization/pose_only.h"
+#include "plumbline/optimization/pose_optimization.h"
 
 #include "tests/tracking/cut_scene.h"
 #include <algorithm>

@@ -20,13 +20,13 @@ struct MatchedFrame {
   TrueMap scene = MakeTrueMap(world, {PoseOnPath(0), PoseOnPath(10)}, {});
   Rigid3 pose = PoseOnPath(15);
   SyntheticFrame sensed;
-  FrameAssociation association;
+  LandmarkMatches association;
   std::vector<bool> wrong_point, wrong_line;  // by feature
 
   explicit MatchedFrame(double wrong_share) {
     Rng rng(11, "matched_frame");
     sensed = Sense(world, pose, {}, rng);
-    association = FrameAssociation(sensed.point_truth.size(), sensed.line_truth.size());
+    association = LandmarkMatches(sensed.point_truth.size(), sensed.line_truth.size());
     for (const auto& [id, point] : scene.map.points()) association.points.push_back({id, point});
     for (const auto& [id, line] : scene.map.lines()) association.lines.push_back({id, line});
     wrong_point = Match(scene.point_of,

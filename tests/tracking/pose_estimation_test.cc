@@ -75,18 +75,18 @@ TEST(DropDisagreeing, LeavesWhatAgreesWithThePose) {
   EXPECT_GT(frame.association.matches.Lines(), lines / 2);
 }
 
-TEST(TakeOutYoung, PartsMatchesByTheViewsOfTheirLandmarks) {
+TEST(SplitMatches, PartsMatchesByTheViewsOfTheirLandmarks) {
   const MatchedFrame frame(0);
   MapSnapshot snapshot;
-  for (const CandidatePoint& point : frame.association.points) {
+  for (const PointCandidate& point : frame.association.points) {
     if (point.id.value % 3 == 0) continue;  // not in the snapshot: as young as can be
     snapshot.points.push_back({{point.model}, point.id, point.id.value % 3 == 1 ? 2 : 3});
   }
-  for (const CandidateLine& line : frame.association.lines) {
+  for (const LineCandidate& line : frame.association.lines) {
     snapshot.lines.push_back({{line.model}, line.id, line.id.value % 2 == 1 ? 2 : 3});
   }
-  FrameAssociation parted = frame.association;
-  const FrameMatches young = TakeOutYoung(snapshot, 3, parted);
+  LandmarkMatches parted = frame.association;
+  const FrameMatches young = SplitMatches(snapshot, 3, parted);
   FrameMatches& established = parted.matches;
   for (std::size_t i = 0; i < young.point_of_feature.size(); ++i) {
     const int match = frame.association.matches.point_of_feature[i];
@@ -97,7 +97,7 @@ TEST(TakeOutYoung, PartsMatchesByTheViewsOfTheirLandmarks) {
     const int match = frame.association.matches.line_of_feature[i];
     EXPECT_EQ(established.line_of_feature[i], match >= 0 && match % 2 == 0 ? match : -1);
   }
-  PutBack(young, established);
+  MergeMatches(young, established);
   EXPECT_EQ(established.point_of_feature, frame.association.matches.point_of_feature);
   EXPECT_EQ(established.line_of_feature, frame.association.matches.line_of_feature);
 }
@@ -134,16 +134,16 @@ TEST(MatchCandidates, MatchesWhatIsFree) {
 
 TEST(MatchSnapshot, MatchesAsIfAllItsLandmarksWereCandidates) {
   MatchedFrame frame(0);
-  FrameAssociation& plain = frame.association;
+  LandmarkMatches& plain = frame.association;
   const int all_points = plain.matches.Points();
   MapSnapshot snapshot;
   for (const auto& point : plain.points) snapshot.points.push_back({{point.model}, point.id, 2});
   for (const auto& line : plain.lines) snapshot.lines.push_back({{line.model}, line.id, 2});
   Halve(plain.matches);
-  FrameAssociation association(frame.sensed.point_truth.size(), frame.sensed.line_truth.size());
+  LandmarkMatches association(frame.sensed.point_truth.size(), frame.sensed.line_truth.size());
   CopyMatches(plain, true, association);
 
-  const ImagingModel imaging = frame.world.Imaging();
+  const CameraAndPyramid imaging = frame.world.Imaging();
   MatchCandidates(imaging, *frame.sensed.indexed, frame.pose, {}, plain);
   const ExpectedLandmarks expected =
       MatchSnapshot(imaging, *frame.sensed.indexed, frame.pose, {}, snapshot, association);
@@ -154,10 +154,10 @@ TEST(MatchSnapshot, MatchesAsIfAllItsLandmarksWereCandidates) {
   EXPECT_EQ(with_snapshot.lines, with_plain.lines);
   EXPECT_EQ(static_cast<int>(association.points.size()), association.matches.Points());
   EXPECT_EQ(static_cast<int>(association.lines.size()), association.matches.Lines());
-  for (const CandidatePoint& point : association.points) {
+  for (const PointCandidate& point : association.points) {
     EXPECT_EQ(point.model.position, snapshot.Find(point.id)->position);
   }
-  for (const CandidateLine& line : association.lines) {
+  for (const LineCandidate& line : association.lines) {
     EXPECT_EQ(line.model.line.moment, snapshot.Find(line.id)->line.moment);
   }
 
@@ -176,7 +176,7 @@ TEST(MatchSnapshot, MatchesAsIfAllItsLandmarksWereCandidates) {
 }
 
 TEST(CountSeen, AddsToTheScoresOfWhatIsExpectedAndOfWhatIsFound) {
-  FrameAssociation association(4, 1);
+  LandmarkMatches association(4, 1);
   for (const int id : {7, 3, -1}) association.points.push_back({PointId{id}, {}});
   association.lines.push_back({LineId{5}, {}});
   association.matches.point_of_feature = {0, -1, 1, 2};  // the last was made on the spot

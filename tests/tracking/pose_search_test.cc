@@ -27,12 +27,12 @@ struct Scene {
   LastFrame last;
   MapSnapshot snapshot;
   TrackingOptions options;
-  FrameAssociation association;
+  LandmarkMatches association;
 
   Scene() {
     last.frame = FrameAt(world, 0);
     last.frame.cam_from_world = PoseOnPath(0);
-    last.association = FrameAssociation(last.frame.points.size(), last.frame.lines.size());
+    last.association = LandmarkMatches(last.frame.points.size(), last.frame.lines.size());
     auto keyframe = std::make_shared<KeyFrame>();
     keyframe->frame = last.frame;
     snapshot.reference = keyframe;
@@ -78,7 +78,7 @@ TEST(PoseSearch, FewKnownDepthsBringInUncertainOnes) {
   const auto uncertain = [&] {
     return std::count_if(scene.association.points.begin(),
                          scene.association.points.end(),
-                         [](const CandidatePoint& p) { return !p.covariance.isZero(0); });
+                         [](const PointCandidate& p) { return !p.covariance.isZero(0); });
   };
   const auto many = search();
   ASSERT_TRUE(many);

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/tracking/projected_matches.h"
 
-#include "plumbline/association/line_information.h"
+#include "plumbline/matching/line_information.h"
 
-#include "tests/association/line_scene.h"
+#include "tests/matching/line_scene.h"
 #include "tests/tracking/cut_scene.h"
 #include "tests/tracking/matched_frame.h"
 #include <optional>

@@ -189,8 +189,9 @@ TEST(Tracker, LeavesAMapThatWasWithdrawnAtOnce) {
   SlamOptions options = SyntheticRun::InlineOptions();
   options.tracking.trial_keyframes = 0;
   MappingStage stage(world.Imaging(), options);
-  stage.Submit(
-      16, MakeMapStart(InitialMapOf(world, {0, 8, 16}), world.Imaging(), Rigid3{}, KeyFrameId{0}));
+  stage.Submit(16,
+               MakeInitialMapEdit(
+                   InitialMapOf(world, {0, 8, 16}), world.Imaging(), Rigid3{}, KeyFrameId{0}));
   const auto snapshot = stage.SnapshotFor(16);
   const PoseEstimator estimator(world.camera, options.lines, options.cutting);
   Tracker tracker(world.Imaging(), options.tracking, estimator, Rigid3{});
@@ -389,7 +390,7 @@ TEST(Tracker, KeepsRightLinesThatComeLater) {
   OneKeyFrame scene;
   TrackingResult result = scene.Step(1);
   result.keyframe.emplace();
-  const auto whole = std::make_shared<const IndexedFeatures>(*result.frame.indexed);
+  const auto whole = std::make_shared<const FrameFeatures>(*result.frame.indexed);
   scene.tracker.Complete(whole, result);
   EXPECT_EQ(result.frame.indexed, whole);
   EXPECT_EQ(result.keyframe->keyframe.frame.indexed, whole);
@@ -399,7 +400,7 @@ TEST(Tracker, NeedsRightLinesToStartAMapAndForOdometry) {
   const SyntheticWorld world = World();
   const Tracker fresh(world.Imaging(), {}, {world.camera, {}, {}}, Rigid3{});
   EXPECT_TRUE(fresh.NeedsRightLines());
-  ImagingModel one_camera = world.Imaging();
+  CameraAndPyramid one_camera = world.Imaging();
   one_camera.camera.baseline = 0;
   EXPECT_FALSE(Tracker(one_camera, {}, {one_camera.camera, {}, {}}, Rigid3{}).NeedsRightLines());
   TrackingOptions odometry;

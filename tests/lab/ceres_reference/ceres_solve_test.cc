@@ -3,7 +3,7 @@
 #include "lab/ceres_reference/ceres_solve.h"
 
 #include "lab/line_rivals/rival_ba.h"
-#include "plumbline/optimization/pose_only.h"
+#include "plumbline/optimization/pose_optimization.h"
 
 #include "tests/optimization/ba_scene.h"
 #include "tests/optimization/pose_scene.h"

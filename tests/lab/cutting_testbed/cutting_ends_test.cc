@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/cutting_testbed/scene.h"
-#include "plumbline/cutting/cut_lines.h"
+#include "plumbline/line_cutting/cut_lines.h"
 #include "plumbline/tracking/line_cutting.h"
 
 #include <algorithm>

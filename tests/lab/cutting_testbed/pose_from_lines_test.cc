@@ -3,7 +3,7 @@
 #include "lab/cutting_testbed/pose_from_lines.h"
 
 #include "lab/cutting_testbed/scene.h"
-#include "plumbline/cutting/cut_residuals.h"
+#include "plumbline/line_cutting/cut_residuals.h"
 
 #include <vector>
 

@@ -4,7 +4,7 @@
 
 #include "lab/line_rivals/line_ends.h"
 #include "plumbline/base/error.h"
-#include "plumbline/optimization/local_ba.h"
+#include "plumbline/optimization/bundle_adjustment.h"
 #include "plumbline/tracking/projected_ends.h"
 
 #include "tests/optimization/ba_properties.h"

@@ -3,8 +3,8 @@
 #include "lab/line_rivals/rival_method.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/mapping/ba_window.h"
 #include "plumbline/mapping/landmark_creation.h"
+#include "plumbline/mapping/local_ba_window.h"
 #include "plumbline/slam/options.h"
 
 #include "tests/support/synthetic_run.h"
@@ -76,7 +76,8 @@ TEST(MethodFor, CompletesWindowsForProjectedEnds) {
   const SyntheticWorld world = MakeSyntheticWorld(300, 40);
   const TrueMap scene = MakeTrueMap(world, {PoseOnPath(0), PoseOnPath(5), PoseOnPath(10)}, {});
   LineOptions lines{.residual = LineResidualKind::kProjectedEnds};
-  BaProblem observed = MakeBaWindow(scene.map, world.Imaging(), KeyFrameId{2}, lines, {}).problem;
+  BaProblem observed =
+      MakeLocalBaWindow(scene.map, world.Imaging(), KeyFrameId{2}, lines, {}).problem;
   observed.axes = {Eigen::Vector3d::UnitY()};
   observed.parallel_lines = {{0, 0, 0.01}};
   const LineMethod method = MethodFor(lines);

@@ -26,7 +26,7 @@ class Watcher : public Initializer {
     EXPECT_EQ(frame.image->width(), MovingPoster::kWidth);
     EXPECT_GT(frame.indexed->features.points.size(), 100U);
     InitializationResult result;
-    result.wait = InitializationWait::kTooFewFrames;
+    result.wait = InitializationStatus::kTooFewFrames;
     return result;
   }
   void Reset() override {}
@@ -64,10 +64,11 @@ TEST(StartBench, MeasuresEachFrameOnce) {
   StartPlan plan;
   plan.frames = {0, 2, 6};
   std::map<std::int64_t, std::set<const void*>> seen;
-  const StartResults results = RunStarts(*dataset, {}, options, plan, [&](const ImagingModel& m) {
-    EXPECT_EQ(m.camera.width, MovingPoster::kWidth);
-    return std::make_unique<Watcher>(seen);
-  });
+  const StartResults results =
+      RunStarts(*dataset, {}, options, plan, [&](const CameraAndPyramid& m) {
+        EXPECT_EQ(m.camera.width, MovingPoster::kWidth);
+        return std::make_unique<Watcher>(seen);
+      });
   ASSERT_EQ(results.records.size(), 3U);
   EXPECT_EQ(results.records[0].offered, 11) << "all but number 5";
   EXPECT_EQ(results.records[1].offered, 9);
@@ -89,7 +90,7 @@ TEST(StartBench, EndsWhenToldTo) {
       {},
       {},
       plan,
-      [&](const ImagingModel&) { return std::make_unique<Watcher>(seen); },
+      [&](const CameraAndPyramid&) { return std::make_unique<Watcher>(seen); },
       [](std::size_t done) { return done < 2; });
   EXPECT_EQ(results.records.size(), 2U);
 }

@@ -73,7 +73,7 @@ class FakeInitializer : public Initializer {
       result.map = map_;
       result.parallax_deg = 3;
     } else {
-      result.wait = InitializationWait::kTooLittleParallax;
+      result.wait = InitializationStatus::kTooLittleParallax;
     }
     return result;
   }

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/loop_closing/loop_edge.h"
+#include "plumbline/loop_closing/options.h"
+#include "plumbline/loop_closing/pose_with_covariance.h"
+#include "plumbline/loop_closing/strong_covisibility.h"
+#include "plumbline/map/map.h"
+#include "plumbline/optimization/pose_graph.h"
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+
+// Returns the keyframe itself, or its nearest ancestor that is in the map; an invalid id where
+// there is none.
+KeyFrameId NearestAncestor(const Map& map, KeyFrameId id);
+
+// The keyframes of a map and what ties them, without landmarks: the pose graph that a loop bends.
+// A tie joins a keyframe with its nearest ancestor that is in the map, and any two keyframes that
+// share many landmarks. Each tie is an edge of the pose graph. Its relative pose is that of the
+// map, and its information says how far odometry may have drifted from one keyframe to the other.
+// Edges are large, and few are needed to judge a loop, so that they are made when asked for.
+struct EssentialGraph {
+  std::vector<KeyFrameId> keyframes;      // the keyframe of each pose, ascending
+  std::vector<Similarity3> poses;         // cam_from_world
+  std::vector<std::pair<int, int>> ties;  // indices of poses, the larger one first; ascending
+  double usual_length = 0;                // mean distance of the poses that a tie joins
+  bool free_scale = false;
+  DriftOptions drift;
+
+  // Returns the index of a keyframe's pose; -1 where it is not in the map.
+  int PoseOf(KeyFrameId id) const;
+  // Returns the edge of a tie, from its smaller index to the larger one.
+  PoseGraphEdge Edge(std::size_t tie) const;
+  // Returns the graph with the edges of all ties, in their order. The oldest keyframe is fixed.
+  PoseGraph WithAllEdges() const;
+};
+
+// Returns the usual drift of odometry, without what a single camera that turns may lose at worst.
+DriftOptions AsARule(DriftOptions drift);
+
+// Makes the essential graph of a map. free_scale: the map is that of a single camera. `covisible`
+// must have followed the map as it is. Cost: that of the product of two poses for each tie.
+EssentialGraph MakeEssentialGraph(const Map& map,
+                                  const StrongCovisibility& covisible,
+                                  bool free_scale,
+                                  const DriftOptions& drift);
+// Makes the essential graph of a map of which nothing is counted yet. O(observations).
+EssentialGraph MakeEssentialGraph(const Map& map,
+                                  bool free_scale,
+                                  const DriftOptions& drift,
+                                  int strong_covisibility);
+
+// Divides the information of each edge by the number of edges that carry nearly the same
+// information. A keyframe is tied to several before and after it, but the drift from one keyframe
+// to the next is common to all of these edges: with d edges at each pose of a path, d (d + 2) / 8
+// edges lead from the part before a place to the part after it. The path as a whole is then as
+// stiff as odometry along single edges.
+void ShareInformation(PoseGraph& graph);
+
+// Returns a loop as an edge of the graph, which may be wrong. Where one of its keyframes has left
+// the map, its nearest ancestor in the map takes its place. Returns nullopt where there is none, or
+// where both keyframes are then the same.
+std::optional<PoseGraphEdge> LoopAsEdge(const Map& map,
+                                        const EssentialGraph& essential,
+                                        const LoopEdge& loop);
+
+// The relative poses that odometry gives to the poses of a graph. They lead along the way with the
+// fewest keyframes, on which the drifts of the edges add up. The ways from a pose are kept once
+// found. The graph must outlive this and stay as it is.
+class OdometryWays {
+ public:
+  explicit OdometryWays(const EssentialGraph& essential);
+
+  // Returns nullopt where no ties lead from one pose to the other. O(ties) for the first call with
+  // a pose, then O(length of the way).
+  std::optional<PoseWithCovariance> Along(int to, int from);
+
+ private:
+  const std::vector<int>& WaysFrom(int first);
+
+  const EssentialGraph& essential_;
+  std::vector<std::vector<int>> ties_of_;  // the ties of each pose, ascending
+  // For each first pose: the tie that leads to each pose on the way.
+  std::map<int, std::vector<int>> ways_from_;
+};
+
+}  // namespace plumbline

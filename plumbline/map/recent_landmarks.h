@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/ids.h"
+
+#include <vector>
+
+namespace plumbline {
+
+// Landmarks that are too young to be trusted. Some may have left the map.
+struct RecentLandmarks {
+  std::vector<PointId> points;
+  std::vector<LineId> lines;
+};
+
+}  // namespace plumbline

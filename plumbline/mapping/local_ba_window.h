@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/map/map.h"
+#include "plumbline/mapping/map_problem.h"
+#include "plumbline/mapping/options.h"
+#include "plumbline/matching/line_options.h"
+#include "plumbline/matching/projection_search.h"
+
+#include <vector>
+
+namespace plumbline {
+
+// Bundle adjustment of the part of the map around a keyframe, whose camera is the world of the
+// problem.
+struct LocalBaWindow : MapProblem {
+  std::vector<LineId> lines;  // the line that has each index in the problem
+};
+
+// Returns the window around a keyframe. The keyframe and its covisible keyframes are free, except
+// the first one of the map; other keyframes that see the same landmarks are fixed. At least one
+// keyframe is fixed, with a single camera two unless the window is the whole map; if need be, these
+// are the oldest of the window. Landmarks need two views. Lines need in addition a wide enough
+// angle between their interpretation planes, or well known ends.
+LocalBaWindow MakeLocalBaWindow(const Map& map,
+                                const CameraAndPyramid& imaging,
+                                KeyFrameId centre,
+                                const LineOptions& lines,
+                                const LocalBaWindowOptions& options);
+
+// Returns the result as changes of the map: poses, landmarks (lines with new intervals and
+// information), and the removal of observations that turned out to be outliers.
+MapEdit ToEdit(const Map& map,
+               const CameraAndPyramid& imaging,
+               const LocalBaWindow& window,
+               const BaResult& result);
+
+}  // namespace plumbline

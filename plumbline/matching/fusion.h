@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/map/map.h"
+#include "plumbline/matching/projection_search.h"
+
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+namespace plumbline {
+
+// Looks for landmarks of other keyframes in keyframe `to`. A feature without landmark becomes a new
+// observation. Where the feature shows another landmark already, the two are one and are merged;
+// the one with more observations stays. All this happens only where the landmark's reprojection
+// agrees with the feature.
+//
+// The feature that looks like a landmark is remembered for the next keyframe that shows the
+// landmark, since neighbours show the same. Meanwhile the keyframe may not move, nor landmarks move
+// or change their descriptors; they may be merged. The map must outlive this object.
+class FusionInto {
+ public:
+  FusionInto(const Map& map, const CameraAndPyramid& imaging, KeyFrameId to);
+
+  // Fuses with the landmarks that keyframe `from` shows in the map as it is now. O(landmarks that
+  // are not remembered, each with the features around its place or all lines).
+  MapEdit Fuse(KeyFrameId from);
+
+ private:
+  using Choices = std::vector<std::optional<FeatureChoice>>;
+
+  void FusePoints(const Frame& source, MapEdit& edit);
+  void FuseLines(const Frame& source, MapEdit& edit);
+  std::optional<FeatureChoice> Choose(const MapPoint& point);
+  std::optional<FeatureChoice> Choose(const MapLine& line);
+
+  const Map& map_;
+  CameraAndPyramid imaging_;
+  KeyFrameId to_;
+  const Frame* target_;  // features of to_ in the map, valid during a call
+  PointChooser point_chooser_;
+  LineChooser line_chooser_;
+  const std::vector<bool> no_point_, no_line_;  // no feature counts as taken
+  std::unordered_map<PointId, std::optional<FeatureChoice>> chosen_by_point_;
+  std::unordered_map<LineId, std::optional<FeatureChoice>> chosen_by_line_;
+};
+
+}  // namespace plumbline

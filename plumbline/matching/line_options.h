@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/options.h"
+#include "plumbline/matching/line_method.h"
+#include "plumbline/matching/measurements.h"
+
+namespace plumbline {
+
+// How lines are made from several views, and how they enter all optimization.
+struct LineOptions {
+  LineParametrization parametrization = LineParametrization::kPlucker;
+  LineResidualKind residual = LineResidualKind::kObservedEnds;
+  LineReconstruction reconstruction = LineReconstruction::kNView;
+  LineWeighting weighting = LineWeighting::kCovariance;
+  double constant_sigma_px = 1;
+  double min_length_ratio = 0.3;
+  bool rotation_gate = false;
+  // The functions behind the options; not an option itself. They have to fit parametrization,
+  // residual and reconstruction (CheckOptions).
+  LineMethod method = {};
+
+  LineWeights weights() const { return {weighting, constant_sigma_px}; }
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, LineOptions& o) {
+  visit("parametrization",
+        o.parametrization,
+        "of a line in bundle adjustment: plucker (orthonormal form, 4 parameters); to compare "
+        "with, in "
+        "builds with the laboratory: plucker_left (the same, turned about the axes of the frame), "
+        "endpoints (two points, 6)");
+  visit("residual",
+        o.residual,
+        "observed_ends: distances of the measured end points from the projected line; "
+        "projected_ends: of the projected end points from the measured line (with "
+        "tracking.reference last_frame; with a map in builds with the laboratory)");
+  visit(
+      "reconstruction",
+      o.reconstruction,
+      "of a line from several keyframes: n_view (all closest ones together, pairs where they "
+      "disagree), n_view_checked (with the first paper's tests of reprojection and of the ends of "
+      "pairs), two_view (the closest pair that agrees; in builds with the laboratory)");
+  visit("weighting",
+        o.weighting,
+        "of the two residuals of a line: none (constant_sigma_px each), scalar (their mean "
+        "variance), "
+        "covariance (2 x 2, with the uncertainty of the 3D line in tracking)");
+  visit("constant_sigma_px",
+        o.constant_sigma_px,
+        "deviation of the residuals of all lines where weighting is none [px]",
+        Range{0.01, 10});
+  visit("min_length_ratio",
+        o.min_length_ratio,
+        "shorter over longer of two lines that are matched by their looks, between keyframes and "
+        "where no pose is predicted (the first paper: 0.8)",
+        Range{0, 1});
+  visit("rotation_gate",
+        o.rotation_gate,
+        "lines of two keyframes are matched only where their directions in the images differ by no "
+        "more than the keyframes are turned against each other (as the first paper)");
+}
+
+}  // namespace plumbline

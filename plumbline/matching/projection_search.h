@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/rectified_camera.h"
+#include "plumbline/geometry/se3.h"
+#include "plumbline/map/frame.h"
+#include "plumbline/map/landmarks.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace plumbline {
+
+// How far from its predicted place a feature may be, and how unlike the landmark. The defaults are
+// tracking's, for a pose that is nearly right.
+struct ProjectionSearchOptions {
+  double point_radius_px = 4;   // at octave 0; grows with the octave
+  int point_max_distance = 80;  // Hamming, of 256 bits
+  double point_ratio = 0.85;  // largest ratio of the best to the second best distance in the window
+  double line_offset_px = 10;  // distance of the feature's midpoint from the projected line
+  double line_angle_deg = 8;   // angle between feature and projected line
+  int line_max_distance = 80;  // Hamming, of 256 bits
+};
+
+// The camera and the size ratio of neighbouring octaves of its features.
+struct CameraAndPyramid {
+  RectifiedCamera camera;
+  double octave_scale = 1.2;
+};
+
+// A point landmark as it should appear in an image.
+struct ProjectedPoint {
+  Eigen::Vector2d px = Eigen::Vector2d::Zero();
+  double disparity = 0;
+  int octave = 0;
+  double scale = 1;  // size of a pixel of the octave in pixels of the full image
+  Descriptor descriptor{};
+};
+
+// A line landmark as it should appear in an image: the visible part of its interval.
+struct ProjectedLine {
+  Segment2 segment;
+  Descriptor descriptor{};
+};
+
+// Returns where a landmark should appear. Returns nullopt when it is behind the camera, outside the
+// image, or seen from too different a side, and for a line of which too little is visible.
+std::optional<ProjectedPoint> ProjectPoint(const CameraAndPyramid& imaging,
+                                           const Rigid3& cam_from_world,
+                                           const PointModel& point);
+std::optional<ProjectedLine> ProjectLine(const CameraAndPyramid& imaging,
+                                         const Rigid3& cam_from_world,
+                                         const LineModel& line);
+
+// Returns the projection of the part of a 3D segment (camera frame) that is in front of the camera
+// and inside the image.
+std::optional<Segment2> ProjectSegment(const RectifiedCamera& camera, const Segment3& in_camera);
+
+// The feature near the place of a landmark that looks most like it, and how unlike it still is
+// (Hamming distance).
+struct FeatureChoice {
+  int feature = 0;
+  int distance = 0;
+};
+
+// Chooses features of one image for points. Keeps the memory that it allocates. The image must
+// outlive it.
+class PointChooser {
+ public:
+  PointChooser(const FrameFeatures& image, const ProjectionSearchOptions& options)
+      : image_(image), options_(options) {}
+
+  // Returns the choice among features with taken[i] false; nullopt where none is near and alike
+  // enough.
+  std::optional<FeatureChoice> Choose(const ProjectedPoint& landmark,
+                                      const std::vector<bool>& taken);
+
+ private:
+  const FrameFeatures& image_;
+  ProjectionSearchOptions options_;
+  std::vector<int> near_;
+};
+
+// Chooses features of one image for lines. They must be near and parallel to the prediction,
+// overlap it and have its direction. Looks at all lines of the image, whose directions it computes
+// once.
+class LineChooser {
+ public:
+  LineChooser(const FrameFeatures& image, const ProjectionSearchOptions& options);
+
+  std::optional<FeatureChoice> Choose(const ProjectedLine& landmark,
+                                      const std::vector<bool>& taken) const;
+
+ private:
+  struct Place {
+    Eigen::Vector2d direction, midpoint;
+  };
+
+  const std::vector<LineFeature>& lines_;
+  ProjectionSearchOptions options_;
+  double min_cosine_;
+  std::vector<Place> places_;  // one entry for each line
+};
+
+struct LandmarkMatch {
+  int landmark = 0;  // index into the projected landmarks
+  int feature = 0;
+};
+
+// Gives a feature that several landmarks chose to the most similar one (ties: the lower index). The
+// result is ordered by landmark.
+std::vector<LandmarkMatch> OneToOne(const std::vector<std::optional<FeatureChoice>>& choices,
+                                    std::size_t feature_count);
+
+// Matches each projected point with the most similar feature near it, one to one: a feature that
+// two landmarks want goes to the more similar one (ties: the lower index). Features with taken[i]
+// and nullopt entries are left out. The result is ordered by landmark.
+std::vector<LandmarkMatch> MatchProjectedPoints(
+    const FrameFeatures& image,
+    const std::vector<std::optional<ProjectedPoint>>& landmarks,
+    const std::vector<bool>& taken,
+    const ProjectionSearchOptions& options);
+
+// Matches each projected line with the most similar feature near it, one to one, as
+// MatchProjectedPoints does with points.
+std::vector<LandmarkMatch> MatchProjectedLines(
+    const FrameFeatures& image,
+    const std::vector<std::optional<ProjectedLine>>& landmarks,
+    const std::vector<bool>& taken,
+    const ProjectionSearchOptions& options);
+
+}  // namespace plumbline

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/foxglove/protocol.h"
+#include "plumbline/viewer/landmark_query.h"
+#include "plumbline/viewer/view_state.h"
+#include "plumbline/viewer/web_server.h"
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace plumbline {
+
+// Names a client that asks, for the answer.
+struct CallId {
+  std::uint64_t client = 0;
+  std::uint32_t service = 0, call = 0;
+};
+
+// What clients may ask for in addition to the streams.
+struct ViewActions {
+  std::function<void(bool paused)> pause;
+  std::function<void()> step;  // shows one frame while the run is paused
+  // Returns false where too many questions wait already.
+  std::function<bool(CallId, const MapQuestion&)> ask;
+  // Asks that ServeAll be called at a time.
+  std::function<void(std::chrono::steady_clock::time_point)> wake_at;
+};
+
+// The connected viewers, in Foxglove's protocol. Each gets the next messages when it has taken
+// those before, at most 30 times a second. A slow viewer thus gets fewer frames, and never has more
+// than one message of each stream on its way. For the thread of the server.
+class ViewClients {
+ public:
+  static constexpr auto kBetweenMessages = std::chrono::milliseconds(33);
+
+  ViewClients(ViewState& state, const std::string& name, bool can_pause, ViewActions actions);
+
+  void Opened(WebClient& client);
+  void Received(WebClient& client, std::string_view message, bool binary);
+  void Closed(WebClient& client) { clients_.erase(&client); }
+  void Serve(WebClient& client);
+  void ServeAll();
+  // Sends an answer to a client, which may be gone meanwhile.
+  void Answer(const CallId& id, const std::string& json);
+
+  // Whether any client wants frames, or the map.
+  bool frames_wanted() const;
+  bool map_wanted() const;
+  // Whether all clients have been sent everything.
+  bool all_served() const;
+
+ private:
+  struct Viewer {
+    std::uint64_t number = 0;
+    // Subscription of each stream.
+    std::array<std::optional<std::uint32_t>, kStreams> subscriptions;
+    ViewCursor cursor;
+    std::chrono::steady_clock::time_point next;  // earliest time of the next messages
+  };
+
+  void Do(WebClient& client, const Subscribe& message);
+  void Do(WebClient& client, const Unsubscribe& message);
+  void Do(WebClient& client, const ServiceCall& message);
+  void Do(WebClient& client, const NotOffered& message);
+  bool IsWanted(Stream stream) const;
+
+  ViewState& state_;
+  bool can_pause_;
+  ViewActions actions_;
+  std::string hello_, channels_, services_;  // what every client gets first
+  std::map<WebClient*, Viewer> clients_;
+  std::uint64_t next_number_ = 1;
+};
+
+}  // namespace plumbline

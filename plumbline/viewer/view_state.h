@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/foxglove/schemas.h"
+#include "plumbline/viewer/viewed_frame.h"
+#include "plumbline/viewer/viewed_map.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace plumbline {
+
+// What is shown of a run in addition to its frames.
+struct ViewedRun {
+  std::string name;                            // name of the data
+  RectifiedCamera camera;                      // camera of the left images that are shown
+  std::optional<std::size_t> frames_expected;  // nullopt: unknown
+  bool can_pause = false;
+  bool saved_map = false;  // a map file is shown, and no frame comes
+};
+
+// The progress of the run.
+struct ViewedCounts {
+  std::size_t frames = 0, dropped = 0, lost = 0;
+  double per_second = 0;  // recent number of frames per second
+
+  friend bool operator==(const ViewedCounts&, const ViewedCounts&) = default;
+};
+
+// An event that changed the map at large.
+struct ViewedEvent {
+  enum class Kind { kLoop, kJoin, kRelocalization };
+  Kind kind = Kind::kLoop;
+  FrameId frame;
+  // For a relocalization `keyframe` is the one from which the place was found.
+  KeyFrameId keyframe, older;
+  int points = 0, lines = 0;
+  double moved = 0;
+};
+
+// How much one receiver has got of what there is.
+struct ViewCursor {
+  std::array<std::uint64_t, kStreams> frame{};   // serial number of the last frame in each stream
+  std::uint64_t map = 0, points = 0, lines = 0;  // versions
+  std::int64_t points_at_ns = 0;                 // time at which it got the points
+  std::size_t events = 0;
+  std::uint64_t run = 0;  // serial number of what is said about the run
+};
+
+using SharedBytes = std::shared_ptr<const std::string>;
+
+// What can be seen of a run at present, and the messages that tell it. A message is made when it is
+// first asked for, and shared by all who ask for the same. For one thread.
+class ViewState {
+ public:
+  // Room for pictures of keyframes.
+  static constexpr std::size_t kKeptBytes = std::size_t{64} << 20U;
+  static constexpr std::int64_t kBetweenCloudsNs = 1'000'000'000;
+
+  explicit ViewState(ViewedRun run) : run_(std::move(run)) {}
+
+  // Takes a frame, which must have features.
+  void Take(ViewedFrame frame);
+  void Take(const ViewedCounts& counts);
+  void Take(const MapChanges& changes) { map_.Take(changes); }
+  void Take(const ViewedEvent& event) { events_.push_back(event); }
+  void SetPaused(bool paused);
+  void SetFinished();
+
+  // Returns the message of the stream that the receiver lacks, and counts it as received; null
+  // where there is nothing new, or not yet. `now_ns` may be of any clock that the receiver keeps
+  // to.
+  SharedBytes Next(Stream stream, ViewCursor& cursor, std::int64_t now_ns);
+
+  // Returns plumbline.Frame of a keyframe of the map with its image; null where that is not kept.
+  // The newest kKeptBytes of this run are kept.
+  SharedBytes KeyFramePicture(ShownId keyframe) const;
+
+  std::int64_t stamp_ns() const { return shown_.stamp_ns(); }
+
+ private:
+  // Versions of frame, map, events and run.
+  using UpdateState = std::tuple<std::uint64_t, std::uint64_t, std::size_t, std::uint64_t>;
+
+  SharedBytes NextOfFrame(Stream stream, ViewCursor& cursor);
+  SharedBytes NextUpdate(ViewCursor& cursor);
+  SharedBytes NextPoints(ViewCursor& cursor, std::int64_t now_ns);
+  SharedBytes NextLines(ViewCursor& cursor);
+  std::string EncodeOfFrame(Stream stream);
+  ProtobufWriter RunMessage() const;
+  const std::string& Jpeg();
+  void KeepPicture();
+
+  ViewedRun run_;
+  ViewedCounts counts_;
+  ViewedFrame shown_;                // the last frame
+  std::optional<std::string> jpeg_;  // JPEG file of the frame shown
+  std::uint64_t serial_ = 0;         // serial number of the frame shown; 0: none
+  std::uint64_t run_serial_ = 1;
+  bool paused_ = false, finished_ = false;
+  ViewedMap map_;
+  std::vector<ViewedEvent> events_;
+  std::map<std::uint32_t, SharedBytes> pictures_;  // pictures by number of the frame
+  std::size_t picture_bytes_ = 0;
+  std::array<SharedBytes, kStreams> made_;  // last message of each stream
+  std::uint64_t points_made_ = 0;           // version of the points in that message
+  // What the receiver has before and after the last message of lines, and the last update.
+  std::pair<std::uint64_t, std::uint64_t> lines_made_;
+  std::pair<UpdateState, UpdateState> update_made_;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/mapping/line_observation_search.h"
+
+#include "tests/support/true_map.h"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+const SensorModel kExactly{.points = false, .noise = 0, .missed = 0};
+
+TrueMap SixKeyFrames(const SyntheticWorld& world, const SensorModel& sensor) {
+  std::vector<Rigid3> poses;
+  for (int frame = 0; frame <= 50; frame += 10) poses.push_back(PoseOnPath(frame));
+  return MakeTrueMap(world, poses, sensor);
+}
+
+LineHypothesis HypothesisOf(const MapLine& line) {
+  return {line.line, {line.start, line.end}, line.information};
+}
+
+TEST(LineSupportSearch, FindsTheSegmentsOfALineWithoutItsMatches) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 60);
+  TrueMap scene = SixKeyFrames(world, kExactly);
+  const Map matched = scene.map;
+  MapEdit forget;
+  for (const auto& [id, line] : matched.lines()) forget.push_back(edit::RemoveLine{id});
+  scene.map.Apply(forget);
+  const CameraAndPyramid imaging = world.Imaging();
+  const LineSupportSearch search(scene.map, imaging);
+  int all = 0, found = 0, wrong = 0;
+  for (const auto& [index, id] : scene.line_of) {
+    const MapLine& line = *matched.Find(id);
+    all += static_cast<int>(line.observations.size());
+    for (const LineSupport& support : search.Find(HypothesisOf(line))) {
+      const auto observed = line.observations.find(support.keyframe->id);
+      const bool right = observed != line.observations.end() &&
+                         observed->second == static_cast<int>(support.feature);
+      (right ? found : wrong) += 1;
+    }
+  }
+  EXPECT_GT(all, 100);
+  EXPECT_GE(found, 0.97 * all);
+  EXPECT_LE(wrong, 0.03 * all);
+}
+
+TEST(LineSupportSearch, LeavesOutWhatIsClaimed) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 30);
+  const TrueMap scene = SixKeyFrames(world, kExactly);
+  const CameraAndPyramid imaging = world.Imaging();
+  LineSupportSearch search(scene.map, imaging);
+  const LineHypothesis hypothesis = HypothesisOf(scene.map.lines().begin()->second);
+  const auto supports = search.Find(hypothesis);
+  ASSERT_FALSE(supports.empty());
+  search.Claim(supports);
+  EXPECT_TRUE(search.Find(hypothesis).empty());
+}
+
+// The inverse of a covariance that rounding errors made singular.
+TEST(LineSupportSearch, FindsNothingForALineOfWhichNothingIsKnown) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 30);
+  const TrueMap scene = SixKeyFrames(world, kExactly);
+  const CameraAndPyramid imaging = world.Imaging();
+  const LineSupportSearch search(scene.map, imaging);
+  LineHypothesis hypothesis = HypothesisOf(scene.map.lines().begin()->second);
+  ASSERT_FALSE(search.Find(hypothesis).empty());
+  hypothesis.information.setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_TRUE(search.Find(hypothesis).empty());
+}
+
+TEST(LineSupportSearch, RefusesALineThatRunsTheOtherWay) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 30);
+  const TrueMap scene = SixKeyFrames(world, kExactly);
+  const CameraAndPyramid imaging = world.Imaging();
+  const LineSupportSearch search(scene.map, imaging);
+  LineHypothesis hypothesis = HypothesisOf(scene.map.lines().begin()->second);
+  hypothesis.line = {-hypothesis.line.moment, -hypothesis.line.direction};
+  hypothesis.interval = {-hypothesis.interval.end, -hypothesis.interval.start};
+  EXPECT_TRUE(search.Find(hypothesis).empty());
+}
+
+TEST(LineThroughSupports, IsTheTrueLineWhereNothingIsNoisy) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 30);
+  const TrueMap scene = SixKeyFrames(world, kExactly);
+  const CameraAndPyramid imaging = world.Imaging();
+  const LineSupportSearch search(scene.map, imaging);
+  int lines = 0;
+  for (const auto& [index, id] : scene.line_of) {
+    const auto supports = search.Find(HypothesisOf(*scene.map.Find(id)));
+    if (CountKeyFrames(supports) < 6) continue;
+    const auto through = LineThroughSupports(world.camera, supports);
+    ASSERT_TRUE(through);
+    const Segment3& truth = world.lines[index].segment;
+    if (through->line.DistanceTo(truth.start) > 1e-3 ||
+        through->line.DistanceTo(truth.end) > 1e-3) {
+      continue;  // another line lies behind this one
+    }
+    ++lines;
+    const auto parts = ShownParts(world.camera, through->line, supports, 6, 0.4);
+    EXPECT_LE(parts.size(), 1U);
+    for (const LineInterval& part : parts) {
+      EXPECT_GE(part.start, through->line.ParameterOf(truth.start) - 1e-3);
+      EXPECT_LE(part.end, through->line.ParameterOf(truth.end) + 1e-3);
+    }
+  }
+  EXPECT_GT(lines, 5);
+}
+
+TEST(ShownParts, CountKeyFramesPlaceByPlace) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 30);
+  const TrueMap scene = SixKeyFrames(world, kExactly);
+  const MapLine& line = scene.map.lines().begin()->second;
+  std::vector<LineSupport> supports;
+  for (const auto& [id, feature] : line.observations) {
+    supports.push_back({scene.map.Find(id), static_cast<std::size_t>(feature), false});
+  }
+  const int views = CountKeyFrames(supports);
+  ASSERT_GE(views, 3);
+  const auto length = [&](int min_keyframes, double min_share) {
+    double sum = 0;
+    for (const auto& part :
+         ShownParts(world.camera, line.line, supports, min_keyframes, min_share)) {
+      sum += part.end - part.start;
+    }
+    return sum;
+  };
+  EXPECT_GT(length(1, 0), 0);
+  EXPECT_GE(length(1, 0), length(views, 0));
+  EXPECT_EQ(length(views + 1, 0), 0);
+  EXPECT_EQ(length(1, 1.5), 0);  // more often than expected
+}
+
+TEST(PartInImage, AgreesWithProjection) {
+  Rng rng(3, "part_in_image");
+  const RectifiedCamera camera = TestCamera();
+  int inside = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Rigid3 pose = RandomRigid(rng, 1, 2);
+    const PluckerLine line = LineThroughPoints(RandomVector<3>(rng, 3) + Eigen::Vector3d(0, 0, 4),
+                                               RandomVector<3>(rng, 3) + Eigen::Vector3d(0, 0, 4));
+    const auto part = PartInImage(camera, pose, line);
+    for (double t = -8; t < 8; t += 0.37) {
+      const Eigen::Vector3d point = pose * line.PointAt(t);
+      const bool seen = point.z() > 0 && camera.Contains(camera.Project(point));
+      EXPECT_EQ(part && part->from <= t && t <= part->to, seen);
+      inside += seen;
+    }
+  }
+  EXPECT_GT(inside, 100);
+}
+
+TEST(OverlapRatio, IsOfTheShorterInterval) {
+  EXPECT_DOUBLE_EQ(OverlapRatio(LineInterval{0, 4}, LineInterval{3, 5}), 0.5);
+  EXPECT_DOUBLE_EQ(OverlapRatio(LineInterval{0, 4}, LineInterval{1, 2}), 1);
+  EXPECT_DOUBLE_EQ(OverlapRatio(LineInterval{0, 1}, LineInterval{2, 3}), 0);
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""Checks that no name is left that tools/names.txt says has another one now.
+
+A row `word OLD NEW [FOLDER...]` is about an identifier in all files, or in those folders alone; OLD with a dot before it is a
+member. `file OLD NEW` is about a source file, `folder OLD NEW` about a module. CHANGELOG.md and docs/log tell of the past and are
+left out. Exit status: 0 clean, 1 old names are left (one a line, file:line).
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+NAMES = "tools/names.txt"
+PAST = ("CHANGELOG.md", NAMES, "docs/log/")
+
+
+def rules(root):
+    for line in (root / NAMES).read_text().splitlines():
+        kind, *parts = line.split() or ["#"]
+        if kind == "word":
+            old, new, *folders = parts
+            pattern = rf"(?<=\.|>|:){old[1:]}\b" if old.startswith(".") else rf"\b{old}\b"
+        elif kind == "file":
+            old, new, folders = *parts, []
+            module, name = pathlib.PurePath(old).parts[-2:]
+            pattern = rf"\b{module}/{name}\.(?:h|cc)\b|\btests/[\w/]+/{name}_test\.cc\b"
+        elif kind == "folder":
+            old, new, folders = *parts, []
+            pattern = rf"\b(?:plumbline|tests)/{old}(?![\w.-])|\bplumbline::{old}\b(?!::)"
+        else:
+            continue
+        yield re.compile(pattern), new, tuple(folders)
+
+
+def main():
+    root = pathlib.Path(__file__).resolve().parent.parent
+    all_rules = list(rules(root))
+    problems = 0
+    files = subprocess.run(["git", "ls-files"], cwd=root, capture_output=True, text=True, check=True)
+    for name in files.stdout.splitlines():
+        path = root / name
+        if name.startswith(PAST) or path.is_symlink() or not path.is_file():
+            continue
+        try:
+            lines = path.read_text().splitlines()
+        except UnicodeDecodeError:
+            continue
+        here = [(pattern, new) for pattern, new, folders in all_rules
+                if not folders or any(name == f or name.startswith(f + "/") for f in folders)]
+        for number, line in enumerate(lines, 1):
+            for pattern, new in here:
+                found = pattern.search(line)
+                if found:
+                    print(f"{name}:{number}: {found[0]} is called {new} now")
+                    problems += 1
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
