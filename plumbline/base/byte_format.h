@@ -19,20 +19,21 @@
 
 namespace plumbline {
 
-// How values become bytes and come back, each exactly. For every type there is one function
+// Conversion of values to bytes and back, exact in both directions. Each type has one function
 //
 //   template <class Archive, Like<Features> T>
 //   void Transfer(Archive& archive, T& value);
 //
-// for both directions: with a ByteWriter it writes a value, which may be const, with a ByteReader
-// it reads into a default one. Those of other modules are in their byte_format.h; the namespace of
-// the archive lets them find each other. A change of one changes every format made of it.
+// for both directions: with a ByteWriter it writes a value, which may be const; with a ByteReader
+// it reads into a default-constructed one. Overloads of other modules are in their byte_format.h
+// and are found by the namespace of the archive. A change of one changes every format that contains
+// it.
 
-// T, const or not.
+// True for T, const or not.
 template <class T, class Plain>
 concept Like = std::same_as<std::remove_const_t<T>, Plain>;
 
-// Numbers that are not finite are refused when they are read, since nothing that is kept has any.
+// Numbers that are not finite are refused on reading, since no stored value has any.
 template <class Archive, StreamedNumber T>
 void Transfer(Archive& archive, T& value) {
   archive(value);
@@ -114,7 +115,7 @@ requires(!Archive::kReading) void Transfer(Archive& archive, const std::vector<T
   for (const T& item : items) Transfer(archive, item);
 }
 
-// Keys must ascend; a map whose keys do not is refused.
+// Keys must ascend; other maps are refused on reading.
 template <class Archive, class Key, class T>
 requires(Archive::kReading) void Transfer(Archive& archive, std::map<Key, T>& items) {
   const std::size_t count = TransferCount(archive, 0);
@@ -133,10 +134,84 @@ requires(!Archive::kReading) void Transfer(Archive& archive, const std::map<Key,
   for (const auto& [key, item] : items) TransferAll(archive, key, item);
 }
 
-// Transfers one number of every item of a list, in as few bytes each as all of them fit into:
-// doubles that are floats in four, small whole numbers in one. Bytes of equal weight lie side by
-// side (all lowest ones, all second ones, ...), since they are alike and compress well. `get`
-// returns the number of an item: a reference to an integer (not std::uint64_t) or a double.
+template <class Archive, class T>
+requires(Archive::kReading) void Transfer(Archive& archive, std::deque<T>& items) {
+  const std::size_t count = TransferCount(archive, 0);
+  for (std::size_t i = 0; i < count; ++i) Transfer(archive, items.emplace_back());
+}
+template <class Archive, class T>
+requires(!Archive::kReading) void Transfer(Archive& archive, const std::deque<T>& items) {
+  TransferCount(archive, items.size());
+  for (const T& item : items) Transfer(archive, item);
+}
+
+// Items must ascend; other sets are refused on reading.
+template <class Archive, class T>
+requires(Archive::kReading) void Transfer(Archive& archive, std::set<T>& items) {
+  const std::size_t count = TransferCount(archive, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    T item;
+    Transfer(archive, item);
+    if (!items.empty() && !(*items.rbegin() < item)) {
+      throw InputError(archive.source() + ": expected ascending items, found others");
+    }
+    items.insert(items.end(), std::move(item));
+  }
+}
+template <class Archive, class T>
+requires(!Archive::kReading) void Transfer(Archive& archive, const std::set<T>& items) {
+  TransferCount(archive, items.size());
+  for (const T& item : items) Transfer(archive, item);
+}
+
+// Transfers an enumerator that has a name (EnumNames). Other numbers are refused on reading.
+template <class Archive, class T>
+requires(std::is_enum_v<T>) void Transfer(Archive& archive, T& value) {
+  using Plain = std::remove_const_t<T>;
+  auto number = static_cast<std::int32_t>(value);
+  archive(number);
+  if constexpr (Archive::kReading) {
+    for (const auto& [enumerator, name] : EnumNames(std::type_identity<Plain>{})) {
+      if (static_cast<std::int32_t>(enumerator) != number) continue;
+      value = enumerator;
+      return;
+    }
+    throw InputError(archive.source() + ": expected one of the known choices, found number " +
+                     std::to_string(number));
+  }
+}
+
+// Transfers a class that lists its members for writing and reading by
+//
+//   template <class Self, class Visitor>
+//   static void VisitState(Self& self, const Visitor& visit) { visit(self.first_, self.second_); }
+//
+// If the class also has a member `bool IsConsistent() const`, an object for which it returns false
+// is refused on reading.
+struct IgnoreFields {
+  template <class... Fields>
+  void operator()(Fields&...) const {}
+};
+template <class T>
+concept ShowsState = requires(T& object) {
+  std::remove_const_t<T>::VisitState(object, IgnoreFields());
+};
+
+template <class Archive, ShowsState T>
+void Transfer(Archive& archive, T& object) {
+  std::remove_const_t<T>::VisitState(object,
+                                     [&](auto&... fields) { TransferAll(archive, fields...); });
+  if constexpr (Archive::kReading && requires { object.IsConsistent(); }) {
+    if (!object.IsConsistent()) {
+      throw InputError(archive.source() + ": expected values that go together, found others");
+    }
+  }
+}
+
+// Transfers one number of every item of a list, in the fewest bytes that fit all of them: doubles
+// that are floats in four, small integers in one. Bytes of equal weight are stored side by side
+// (all lowest ones, all second ones, ...), since they are alike and compress well. `get` returns
+// the number of an item: a reference to an integer (not std::uint64_t) or a double.
 template <class Archive, class Items, class Get>
 void TransferColumn(Archive& archive, Items& items, const Get& get);
 
@@ -150,8 +225,8 @@ inline std::int64_t Unfolded(std::uint64_t bits) {
   return static_cast<std::int64_t>(bits >> 1U) ^ -static_cast<std::int64_t>(bits & 1U);
 }
 
-// Whether a number in single precision holds the value exactly. This looks at the bits, since GCC
-// 12 drops conversions to float and back where it takes two of them together.
+// Returns true if single precision represents the value exactly. It inspects the bits, since GCC 12
+// drops conversions to float and back if it needs two of them together.
 inline bool IsFloat(double value) {
   constexpr std::uint64_t kLost = (std::uint64_t{1} << 29U) - 1;
   constexpr std::uint64_t kLeast = 1023 - 126, kMost = 1023 + 127;
@@ -161,7 +236,7 @@ inline bool IsFloat(double value) {
   return zero || ((bits & kLost) == 0 && exponent >= kLeast && exponent <= kMost);
 }
 
-// The bits of each number, and how many bytes hold the widest.
+// The bits of each number, and the number of bytes of the widest.
 struct Bits {
   std::vector<std::uint64_t> values;
   std::uint8_t bytes = 1;

@@ -48,7 +48,7 @@ class ByteWriter {
   std::string bytes_;
 };
 
-// Reads numbers. Throws InputError "<source>: ends early" when there are not enough bytes.
+// Reads numbers. Throws InputError "<source>: ends early" if too few bytes are left.
 class ByteReader {
  public:
   static constexpr bool kReading = true;

@@ -8,14 +8,13 @@
 
 namespace plumbline {
 
-// The values that chi2 variables with one and two degrees of freedom stay below with 95 % and 99 %.
+// The 95 % and 99 % quantiles of chi2 distributions with one and two degrees of freedom.
 inline constexpr double kChi2OneDof95 = 3.841;
 inline constexpr double kChi2TwoDof95 = 5.991;
 inline constexpr double kChi2TwoDof99 = 9.21;
 
-// Returns the value that a chi2 variable with `dof` >= 1 degrees of freedom stays below with 95 %.
-// It is exact to 1e-3 for dof <= 12; for others it is the approximation of Wilson and Hilferty
-// (error below 0.1 %).
+// Returns the 95 % quantile of the chi2 distribution with `dof` >= 1 degrees of freedom: exact to
+// 1e-3 for dof <= 12, beyond that by the approximation of Wilson and Hilferty (error below 0.1 %).
 inline double Chi2Limit95(int dof) {
   constexpr std::array kLimits{0.0,
                                kChi2OneDof95,

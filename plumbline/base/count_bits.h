@@ -8,9 +8,9 @@
 
 namespace plumbline {
 
-// Returns how many bits of up to 31 words are set. The processors that we compile for need not have
-// an instruction for it, and std::popcount then looks bytes up in a table. Adding neighbouring
-// fields of all words at once takes a third of that time.
+// Returns the number of bits set in up to 31 words. Processors that we compile for need not have an
+// instruction for it, and std::popcount then uses a table of bytes. Adding neighbouring fields of
+// all words at once takes a third of that time.
 template <std::size_t kWords>
 int CountBits(const std::array<std::uint64_t, kWords>& words) {
   static_assert(kWords <= 31, "sums of bytes must fit into bytes");

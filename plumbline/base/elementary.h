@@ -3,9 +3,9 @@
 #pragma once
 
 // Elementary functions that give the same bits on every machine. Those of the C library do not:
-// glibc has variants with and without fused multiply-add, takes the one that the processor can run,
-// and their last digits differ. The functions here consist of additions, multiplications, divisions
-// and square roots, which IEEE 754 rounds in one way.
+// glibc selects a variant with or without fused multiply-add by the processor, and their last
+// digits differ. The functions here consist of additions, multiplications, divisions and square
+// roots, whose rounding IEEE 754 defines.
 //
 // Arguments and results are as in <cmath>, including infinities and NaN. Errors are given in units
 // of the last place (ulp): below 1 unless a function says otherwise. Most functions take about 10
@@ -43,8 +43,8 @@ double Log1p(double x);
 // Powers of ten within 1e-22 and 1e22 have exact logarithms. Error below 3 ulp.
 double Log10(double x);
 
-// Power by repeated squaring. The error is below |exponent| ulp; there is none where all products
-// are exact.
+// Power by repeated squaring. The error is below |exponent| ulp, and zero if all products are
+// exact.
 double Pow(double base, int exponent);
 // base >= 0. The error grows with the result's logarithm: below (2 + 2 |exponent log(base)|) ulp.
 double Pow(double base, double exponent);

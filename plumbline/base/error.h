@@ -38,29 +38,29 @@ class BugError : public std::logic_error {
       ::plumbline::FailCheck(#expression, (why)); \
   } while (false)
 
-// The value of an algorithm that may fail in foreseen ways, or the reason (an enum) why it failed.
+// Value of an algorithm that may fail in foreseen ways, or the reason (an enum) of its failure.
 template <typename T, typename E>
 class [[nodiscard]] Expected {
  public:
   Expected(T value) : state_(std::in_place_index<0>, std::move(value)) {}  // NOLINT
   Expected(E error) : state_(std::in_place_index<1>, std::move(error)) {}  // NOLINT
-  // Whether there is a value.
+  // True if it has a value.
   explicit operator bool() const { return state_.index() == 0; }
-  // The value; BugError where there is none.
+  // The value; throws BugError if it has none.
   const T& operator*() const& {
     PLUMBLINE_CHECK(state_.index() == 0, "value of a failed Expected");
     return std::get<0>(state_);
   }
-  // The value, to be changed or moved from; BugError where there is none.
+  // The value, to be changed or moved from; throws BugError if it has none.
   T& operator*() & {
     PLUMBLINE_CHECK(state_.index() == 0, "value of a failed Expected");
     return std::get<0>(state_);
   }
-  // A member of the value; BugError where there is none.
+  // A member of the value; throws BugError if it has none.
   const T* operator->() const { return &**this; }
-  // A member of the value, to be changed or moved from; BugError where there is none.
+  // A member of the value, to be changed or moved from; throws BugError if it has none.
   T* operator->() { return &**this; }
-  // Why there is no value; BugError where there is one.
+  // The reason of the failure; throws BugError if it has a value.
   const E& error() const {
     PLUMBLINE_CHECK(state_.index() == 1, "error of a successful Expected");
     return std::get<1>(state_);

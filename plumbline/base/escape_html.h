@@ -7,7 +7,7 @@
 
 namespace plumbline {
 
-// Returns the text in a form that may stand in the body of an HTML page or in a quoted attribute.
+// Returns the text escaped for the body of an HTML page or a quoted attribute.
 std::string EscapeHtml(std::string_view text);
 
 }  // namespace plumbline

@@ -9,23 +9,22 @@
 
 namespace plumbline {
 
-// A thread that helps one caller at a time, and waits in between. Work that two threads share for
-// every frame thus needs no new thread each time. A new thread would have to queue behind all that
-// runs; a thread that wakes goes first.
+// A thread that helps one caller at a time and sleeps in between, so that work shared by two
+// threads in every frame needs no new thread. A new thread would queue behind all running ones; a
+// thread that wakes up is scheduled first.
 class HelperThread {
  public:
-  // Throws std::system_error when no thread can be started.
+  // Throws std::system_error if no thread can be started.
   HelperThread();
   HelperThread(const HelperThread&) = delete;
   HelperThread& operator=(const HelperThread&) = delete;
   ~HelperThread();
 
-  // Asks for work(), which may not throw; one call of Finish must follow. Returns false, and asks
-  // for nothing, while the thread helps another caller. Thread-safe.
+  // Requests work(), which must not throw; one call of Finish must follow. Returns false, and
+  // requests nothing, while the thread helps another caller. Thread-safe.
   bool Ask(std::function<void()> work);
-  // Returns when the work that this caller has asked for is done, or at once, without doing it,
-  // where it has not begun: on a busy machine a caller that has done all the work itself waits for
-  // nothing.
+  // Waits until the work requested by this caller is done. Work that has not begun is cancelled, so
+  // that on a busy machine a caller that has done everything itself does not wait.
   void Finish();
 
  private:
@@ -36,8 +35,8 @@ class HelperThread {
   bool helping_ = false;
   bool working_ = false;
   bool stop_ = false;
-  std::function<void()> work_;  // work that was asked for and has not begun
-  std::thread thread_;          // declared last, so that it is started when the other members exist
+  std::function<void()> work_;  // requested work that has not begun
+  std::thread thread_;          // declared last: it starts after all other members exist
 };
 
 }  // namespace plumbline

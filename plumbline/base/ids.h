@@ -24,7 +24,7 @@ using KeyFrameId = Id<struct KeyFrameTag>;  // order of creation
 using PointId = Id<struct PointTag>;
 using LineId = Id<struct LineTag>;
 using MapId = Id<struct MapTag>;
-// A run of the camera: the index into the list of sessions.
+// One run of the camera: index into the list of sessions.
 using SessionId = Id<struct SessionTag>;
 
 }  // namespace plumbline

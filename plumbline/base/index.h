@@ -6,7 +6,7 @@
 
 namespace plumbline {
 
-// Turns a number that counts from 0 into the type of indices of containers.
+// Converts a number >= 0 to the index type of containers.
 constexpr std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace plumbline

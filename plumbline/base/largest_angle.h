@@ -8,14 +8,14 @@
 
 namespace plumbline {
 
-// The largest of many angles between 0 and pi, each given by the two arguments of atan2. An angle
-// is computed only where it may be the largest: atan2 takes ten times as long as that test.
+// The largest of many angles in [0, pi], each given by the two arguments of atan2. An angle is
+// computed only if it may be the largest: atan2 takes ten times as long as that test.
 class LargestAngle {
  public:
-  // Adds an angle; returns whether atan2(across, along) is larger than all before, and than 0.
+  // Adds an angle. Returns true if atan2(across, along) exceeds 0 and all earlier angles. Requires
   // across >= 0.
   bool Add(double across, double along) {
-    // Where two angles are nearly equal, the rounded angles decide.
+    // If two angles are nearly equal, the rounded angles decide.
     constexpr double kClearly = 1e-12;
     const double ahead = across * along_, behind = along * across_;
     if (ahead - behind < -kClearly * (std::abs(ahead) + std::abs(behind))) return false;

@@ -9,8 +9,8 @@
 
 namespace plumbline {
 
-// Returns the middle value; of an even number of values the upper one of the two, and 0 of none.
-// Changes the order of the values. O(n).
+// Returns the median: of an even number of values the upper one of the two in the middle, 0 if
+// empty. Reorders the values. O(n).
 inline double UpperMedian(std::span<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

@@ -11,12 +11,12 @@
 namespace plumbline {
 
 // Returns the least number of steps that turn `a` into `b`. A step inserts, deletes or replaces a
-// character, or swaps two neighbours (no part is changed twice).
+// character, or swaps two neighbours (optimal string alignment: no part is edited twice).
 std::size_t EditDistance(std::string_view a, std::string_view b);
 
-// Returns the candidate that a user most likely meant by `name`: the one of least edit distance,
-// the first of equal ones; nullopt when all are too different to be of help. For dotted names a
-// candidate whose last part is near also counts, so that `seed` finds `slam.seed`.
+// Returns the candidate of least edit distance to `name` (ties: the first); nullopt if all are too
+// different. For dotted names a candidate whose last part is near also counts, so that `seed` finds
+// `slam.seed`.
 std::optional<std::string> NearestName(std::string_view name,
                                        std::span<const std::string> candidates);
 

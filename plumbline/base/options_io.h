@@ -17,14 +17,14 @@
 
 namespace plumbline {
 
-// An enum option, as the index of one of its names.
+// An option of enum type, as the index into its names.
 struct EnumField {
   std::vector<std::string> names;
   std::function<std::size_t()> get;
   std::function<void(std::size_t)> set;
 };
 
-// One option: where its value is, and what describes it.
+// One option: the location of its value, and its description.
 struct OptionField {
   using Target =
       std::variant<bool*, int*, std::int64_t*, std::uint64_t*, double*, std::string*, EnumField>;
@@ -35,8 +35,8 @@ struct OptionField {
   Target target;
 };
 
-// All options of a tree of option structs (options.h), to be read from YAML, set one by one, and
-// written back. Holds pointers into the struct it was made from, which must outlive it.
+// All options of a tree of option structs (options.h): read from YAML, set one by one, and written
+// back. Holds pointers into the struct it was made from, which must outlive it.
 //
 //   SlamOptions options;
 //   OptionTable table(options);
@@ -44,9 +44,12 @@ struct OptionField {
 //   table.Set("loop.enabled=false");
 //
 // Settings apply in the order of the calls; a later one replaces an earlier one. All members that
-// read settings throw InputError: an unknown key (with the nearest valid one), a value of the wrong
-// type, out of range or not among the choices; the message names file and line, the key, what is
-// allowed and what was found. Settings before the faulty one stay applied.
+// read settings throw InputError for an unknown key (with the nearest valid one) and for a value of
+// the wrong type, out of range or not among the choices; the message names file and line, the key,
+// what is allowed and what was found. Settings before the faulty one stay applied. Removed options
+// (FixedOption) are ignored in files and texts that set them to their fixed value, so that files of
+// earlier versions can be read; another value, and any use in Set, is an error that states the
+// fixed value.
 class OptionTable {
  public:
   template <OptionGroup T>
@@ -60,18 +63,18 @@ class OptionTable {
   void LoadText(const std::string& text, const std::string& source);
   // Applies one setting "key=value" of the command line.
   void Set(std::string_view assignment);
-  // Applies one setting that the caller has read; messages begin with `where`, such as
+  // Applies one setting that the caller has parsed; messages begin with `where`, such as
   // "room.yaml:7".
   void Set(const std::string& key, const std::string& text, const std::string& where);
 
-  // Throws InputError where a number lies outside the range of its option. This finds numbers that
-  // were set in the struct itself, where nothing checks them.
+  // Throws InputError if a number lies outside the range of its option. It is for numbers assigned
+  // to the struct directly, which no other check covers.
   void CheckRanges() const;
 
-  // Returns a YAML document of all options with help, range and choices as comments. LoadText of it
-  // gives the same values again, to the last bit.
+  // Returns a YAML document of all options with help, range and choices as comments. LoadText
+  // restores the same values from it, to the last bit.
   std::string Dump() const;
-  // Returns such a document of only the wanted options, with the groups they are in.
+  // Returns the same document restricted to the wanted options and their groups.
   std::string Dump(const std::function<bool(const OptionField&)>& wanted) const;
   // Returns the value of one option as Dump writes it; throws InputError for an unknown key.
   std::string Value(std::string_view key) const;
@@ -79,6 +82,8 @@ class OptionTable {
   // Returns the dotted keys of all options, in the order of the structs.
   std::vector<std::string> Keys() const;
   const std::vector<OptionField>& fields() const { return fields_; }
+  // Options of earlier versions: the dotted key of each, and its fixed value.
+  const std::map<std::string, std::string>& fixed() const { return fixed_; }
 
  private:
   struct Group {
@@ -139,6 +144,8 @@ class OptionTable {
   }
 
   bool IsGroup(std::string_view key) const;
+  // Returns true if `text` gives an option of earlier versions its fixed value.
+  bool IsFixedAt(const std::string& key, const std::string& text) const;
 
   std::vector<OptionField> fields_;
   std::vector<Group> groups_;

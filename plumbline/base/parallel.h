@@ -13,13 +13,13 @@
 
 namespace plumbline {
 
-// The calls of fn(i) for i in [0, n), shared by several threads.
+// Calls of fn(i) for i in [0, n), shared by several threads.
 template <class Function>
 class SharedCalls {
  public:
   SharedCalls(int n, const Function& fn) : n_(n), fn_(fn), failed_index_(n) {}
 
-  // Does one call after the other until none is left. Called in every thread that takes part.
+  // Makes one call after the other until none is left. Called by every participating thread.
   void Work() {
     for (int i = next_.fetch_add(1); i < n_; i = next_.fetch_add(1)) {
       try {
@@ -31,8 +31,7 @@ class SharedCalls {
     }
   }
 
-  // Rethrows the exception of the least i, if there is one. To be called after all threads have
-  // ended.
+  // Rethrows the exception of the least i, if any. Call after all threads have ended.
   void Rethrow() const {
     if (failure_) std::rethrow_exception(failure_);
   }
@@ -54,11 +53,11 @@ class SharedCalls {
 };
 
 // Calls fn(i) once for every i in [0, n), on up to `threads` threads (the caller's among them);
-// threads <= 1 runs in the caller's thread, in order. fn(i) may write only what belongs to i, so
+// threads <= 1 runs in the caller's thread, in order. fn(i) must write only data of index i, so
 // that the result does not depend on the number of threads.
 //
-// Returns when all calls are done. If calls throw, the exception of the least i is rethrown; calls
-// not yet begun by then are left out. Cost: starting the threads, some 20 us each.
+// Returns when all calls are done. If calls throw, the exception of the least i is rethrown, and
+// calls that have not begun by then are skipped. Cost: starting the threads, about 20 us each.
 template <class Function>
 void ParallelFor(int n, int threads, const Function& fn) {
   if (threads <= 1 || n <= 1) {
@@ -74,8 +73,7 @@ void ParallelFor(int n, int threads, const Function& fn) {
   calls.Rethrow();
 }
 
-// Calls fn(i) once for every i in [0, n), in the caller's thread and in the helper's where it is
-// free.
+// Calls fn(i) once for every i in [0, n), in the caller's thread and in the helper's if it is free.
 template <class Function>
 void ParallelFor(int n, HelperThread* helper, const Function& fn) {
   SharedCalls<Function> calls(n, fn);
@@ -86,7 +84,7 @@ void ParallelFor(int n, HelperThread* helper, const Function& fn) {
 }
 
 // Calls fn(begin, end) for consecutive ranges that make up [0, n), each but the last of `length`
-// indices, in the caller's thread and in the helper's where it is free.
+// indices, in the caller's thread and in the helper's if it is free.
 template <class Function>
 void ParallelForRanges(std::size_t n,
                        std::size_t length,

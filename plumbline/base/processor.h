@@ -21,8 +21,8 @@
 
 namespace plumbline {
 
-// Whether the processor has AVX2 and an instruction that counts bits, and the C library says so:
-// GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2 hides it from us as it does from the library.
+// Returns true if the processor has AVX2 and POPCNT and the C library reports them:
+// GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2 hides them here as it does in the library.
 inline bool HasAvx2() {
 #if defined(__x86_64__)
   static const bool kHas = CPU_FEATURE_ACTIVE(AVX2) && CPU_FEATURE_ACTIVE(POPCNT);
@@ -39,15 +39,15 @@ auto RunAnywhere(Arguments&&... arguments) {
 }
 
 // Calls Kernel::Run, compiled for AVX2 without fused multiply-add. The same operations in the same
-// order round in the same way, so that the bytes are those of RunAnywhere. Only where HasAvx2().
+// order round in the same way, so that the bytes equal those of RunAnywhere. Requires HasAvx2().
 template <class Kernel, class... Arguments>
 PLUMBLINE_TARGET_AVX2 auto RunWithAvx2(Arguments&&... arguments) {
   return Kernel::Run(std::forward<Arguments>(arguments)...);
 }
 
-// Calls Kernel::Run in the version that is fastest on this processor. Run has to be a static
-// function of plain loops that is always inlined ([[gnu::always_inline]] inline); functions that it
-// calls are compiled for AVX2 where they are inlined, too. Cost beyond the kernel's: a branch.
+// Calls Kernel::Run in the version that is fastest on this processor. Run must be a static function
+// of plain loops that is always inlined ([[gnu::always_inline]] inline); functions that it calls
+// are compiled for AVX2, too, if they are inlined. Cost beyond the kernel's: a branch.
 template <class Kernel, class... Arguments>
 auto RunBest(Arguments&&... arguments) {
   return HasAvx2() ? RunWithAvx2<Kernel>(std::forward<Arguments>(arguments)...)
@@ -55,9 +55,9 @@ auto RunBest(Arguments&&... arguments) {
 }
 
 // Calls block(first, size) so that 0 to count - 1 are covered. `size` is a constant, kBlock, and
-// the last block overlaps the one before where count is no multiple of it; with fewer than kBlock
-// in all, blocks have one. This is for kernels whose rest after the last whole vector would take as
-// long as all the vectors. What a block writes must not be what another one reads.
+// the last block overlaps the one before if count is no multiple of it; if count < kBlock, all
+// blocks have size 1. It is for kernels whose remainder after the last whole vector would take as
+// long as all the vectors. A block must not write what another block reads.
 template <int kBlock, class Block>
 [[gnu::always_inline]] inline void ForBlocks(int count, const Block& block) {
   if (count < kBlock) {

@@ -17,8 +17,8 @@
 
 namespace plumbline {
 
-// A stream of random numbers that depends on (seed, name, index) only. Each place that draws makes
-// its own, Rng(options.seed, "two_view", frame), so that a new draw in one place changes no other.
+// A stream of random numbers that depends on (seed, name, index) only. Each use makes its own,
+// Rng(options.seed, "two_view", frame), so that a new draw in one place changes no other.
 //
 // The generator is xoshiro256** (Blackman and Vigna 2018), with its state filled by splitmix64. The
 // distributions are our own, since those of the standard library differ from one implementation to
@@ -71,7 +71,7 @@ class Rng {
     return sigma * radius * math::Cos(2 * std::numbers::pi * Uniform());
   }
 
-  // Puts the values into a random order, every order equally likely (Fisher-Yates).
+  // Shuffles the values, every order equally likely (Fisher-Yates).
   template <class T>
   void Shuffle(std::vector<T>& values) {
     for (std::size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[Index(i)]);

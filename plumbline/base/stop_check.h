@@ -6,9 +6,8 @@
 
 namespace plumbline {
 
-// Returns true when work is to end now. Work that may take long asks it again and again, in the
-// thread that does it. Once true it must stay true. An empty function never stops anything. A call
-// should take no more than a microsecond.
+// Returns true if work must end now. Long work calls it repeatedly, in its own thread. Once true it
+// must stay true. An empty function never stops anything. A call should take at most a microsecond.
 using StopCheck = std::function<bool()>;
 
 inline bool IsToStop(const StopCheck& stop) { return stop && stop(); }

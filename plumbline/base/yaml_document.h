@@ -10,9 +10,9 @@ class Node;
 
 namespace plumbline {
 
-// Reads a YAML text of one document. Throws InputError "source:line: expected ..., found ..." when
-// it is no YAML, when a group has a key twice (the library would silently take the first), and when
-// there is a second document. An empty text is a null node. O(length), times log(keys of a group).
+// Parses a YAML text of one document. Throws InputError "source:line: expected ..., found ..." if
+// it is not YAML, if a group has a key twice (the library would silently take the first), or if it
+// has a second document. An empty text is a null node. O(length), times log(keys of a group).
 YAML::Node ParseYaml(const std::string& text, const std::string& source);
 
 }  // namespace plumbline
