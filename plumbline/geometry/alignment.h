@@ -16,7 +16,7 @@ namespace plumbline {
 
 enum class AlignmentFailure {
   kTooFewPoints,  // fewer than three points with a positive weight
-  // All points of a set are in one place: neither rotation nor scale is determined.
+  // All points of a set coincide: neither rotation nor scale is determined.
   kCoincident,
   // All points are on one line: the rotation about it is free.
   kCollinear,
@@ -40,7 +40,7 @@ enum class AlignmentScale { kFixed, kFree };
 // 1991, eq. 40-42.
 //
 //   source, target  corresponding points, same length
-//   fails           degenerate sets. A set counts as collinear when its second standard deviation
+//   fails           degenerate sets. A set counts as collinear if its second standard deviation
 //                   is below 1e-6 of its first: its rotation is then not determined
 //   cost            O(n)
 Expected<Alignment, AlignmentFailure> AlignPoints(std::span<const Eigen::Vector3d> source,

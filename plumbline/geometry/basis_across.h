@@ -7,8 +7,8 @@
 
 namespace plumbline {
 
-// Returns two directions of unit length, as columns, at right angles to a unit vector t and to each
-// other. A change of the direction t is written in them: t + basis d, scaled to length 1.
+// Returns two orthonormal directions, as columns, perpendicular to a unit vector t. A change of the
+// direction t is written in them: t + basis d, normalized.
 inline Eigen::Matrix<double, 3, 2> BasisAcross(const Eigen::Vector3d& direction) {
   Eigen::Index smallest = 0;
   direction.cwiseAbs().minCoeff(&smallest);

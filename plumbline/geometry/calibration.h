@@ -9,21 +9,22 @@
 
 namespace plumbline {
 
-// What is known of the sensor. `right` makes it a stereo pair, else `depth_factor` makes it an
-// RGB-D camera, else it is a single camera. Each frame must then have that image; other images are
-// left aside. To use less than there is, leave members out.
+// Model of the sensor. `right` makes it a stereo pair, else `depth_factor` makes it an RGB-D
+// camera, else it is a single camera. Each frame must have the images of its kind; other images are
+// ignored. To use less than the sensor offers, leave members out.
 struct Calibration {
   Camera left;
   std::optional<Camera> right;
-  // Between the cameras as delivered, before rectification; metres. Used with `right` alone.
+  // From the left to the right camera as delivered, before rectification; metres. Only with
+  // `right`.
   Rigid3 right_from_left;
-  // The images are undistorted already and, in stereo, corresponding points lie in equal rows.
+  // True if the images are undistorted and, in stereo, corresponding points lie in equal rows.
   bool rectified = false;
-  // RGB-D: value of stored depth images per metre. SensorFrame::depth is in metres already.
+  // RGB-D: value of stored depth images per metre. SensorFrame::depth is already in metres.
   std::optional<double> depth_factor;
-  // Nominal frames per second. Folders of images, which have no times, need it.
+  // Nominal frames per second. Required for folders of images, which have no times.
   std::optional<double> rate_hz;
-  // body: the frame of the ground truth, where that is not the camera's.
+  // body: the frame of the ground truth, if it is not the camera's.
   std::optional<Rigid3> body_from_left;
 };
 

@@ -9,7 +9,7 @@
 namespace plumbline {
 
 // Returns the standard deviation in the worst direction: the square root of the largest eigenvalue.
-// Infinite where the covariance has numbers that are not finite.
+// Infinite if the covariance is not finite.
 double LargestSigma(const Eigen::Matrix3d& covariance);
 
 // Returns the covariance of world_from_camera from that of the left perturbation [rotation,
@@ -18,15 +18,15 @@ double LargestSigma(const Eigen::Matrix3d& covariance);
 // estimated one plus d, and the true rotation of world_from_camera is Exp(w) times the estimated
 // one. This is the order and meaning of ROS's geometry_msgs/PoseWithCovariance. Exactly symmetric.
 //
-// A rotation of the camera about its own centre, such as rectification, changes nothing of it.
+// A rotation of the camera about its own centre, such as rectification, does not change the result.
 Matrix6d PoseCovarianceInWorld(const Rigid3& cam_from_world, const Matrix6d& of_left_perturbation);
 
 // Returns the covariance, in the form of PoseCovarianceInWorld, of a body that is fixed to the
 // camera, along the axes of another world.
 //
 //   covariance        of the camera in the world
-//   other_from_world  turns the axes; how the other world is moved against this one is known
-//                     exactly, and its origin does not matter
+//   other_from_world  rotates the axes; the motion between the two worlds is known exactly, and the
+//                     origin of the other one does not matter
 //   lever             from the camera's centre to the body's origin, along the axes of the world
 Matrix6d MovedPoseCovariance(const Matrix6d& covariance,
                              const Eigen::Quaterniond& other_from_world,

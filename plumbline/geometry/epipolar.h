@@ -9,8 +9,8 @@
 
 namespace plumbline {
 
-// E = [t]x R: x_b . E x_a = 0 for rays of one point. Zero where the cameras share their centre.
-// Chain poses and form E once: a product of essential matrices is not one.
+// E = [t]x R: x_b . E x_a = 0 for rays of one point. Zero if the cameras share their centre. Chain
+// poses and form E once: a product of essential matrices is not one.
 inline Eigen::Matrix3d EssentialMatrix(const Rigid3& b_from_a) {
   return Skew(b_from_a.translation) * b_from_a.rotation.toRotationMatrix();
 }

@@ -15,8 +15,8 @@
 namespace plumbline {
 
 // A line with the covariance of `delta` in Retract(ToOrthonormal(line), delta). The covariance
-// belongs to the frame of the line: near a line through the origin the tangent loses a dimension
-// and the covariance grows without bound.
+// refers to the frame of the line: near a line through the origin the tangent loses a dimension and
+// the covariance grows without bound.
 struct LineEstimate {
   PluckerLine line;
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
@@ -40,7 +40,7 @@ inline Rigid3 RightCamera(const RectifiedCamera& camera, const Rigid3& left_from
 std::optional<Eigen::Vector4d> InterpretationPlane(const RectifiedCamera& camera,
                                                    const LineView& view);
 
-// The conditions that TriangulateLine sets to the views.
+// Conditions of TriangulateLine on the views.
 struct LineTriangulationOptions {
   // Least angle [rad] that the widest pair of interpretation planes must have.
   double min_plane_angle = 0.02;
@@ -50,7 +50,7 @@ struct LineTriangulationOptions {
   int max_iterations = 6;
 };
 
-// Why TriangulateLine gives no line.
+// Reasons why TriangulateLine fails.
 enum class LineTriangulationFailure {
   kTooFewViews,
   kEmptySegment,       // a segment has zero length
@@ -61,7 +61,7 @@ enum class LineTriangulationFailure {
   kSingular,
 };
 
-// A line made from views, and how well they agree on it.
+// A triangulated line and its residuals.
 struct TriangulatedLine {
   LineEstimate estimate;  // in the world, directed as the first view's segment
   double chi2 = 0;        // sum of squared end point distances over their variances
@@ -73,12 +73,12 @@ struct TriangulatedLine {
 // The linear solution comes first: the two leading right singular vectors of the stacked
 // interpretation planes are two planes through the line (Lee and Hwang, ICCV 2019, eq. 25, 24). It
 // differs from the paper: rows are scaled to unit normals and weighted by length over sigma, and
-// the origin is moved to the line, since otherwise the sum that the SVD minimises means nothing.
-// Then Gauss-Newton minimises the distances of the measured end points from the reprojected line
-// (eq. 13); its normal matrix gives the covariance. The paper's test m.d < 0.01 is met by any two
-// planes; the reprojection into every view takes its place.
+// the origin is moved to the line, since otherwise the sum that the SVD minimises has no geometric
+// meaning. Then Gauss-Newton minimises the distances of the measured end points from the
+// reprojected line (eq. 13); its normal matrix gives the covariance. The paper's test m.d < 0.01 is
+// met by any two planes; the reprojection into every view replaces it.
 //
-// Throws InputError for a view whose rotation is none (unit_rotation.h).
+// Throws InputError for a view whose rotation is not a unit quaternion (unit_rotation.h).
 //
 // Cost: O(n^2) for the angle, otherwise O(n).
 Expected<TriangulatedLine, LineTriangulationFailure> TriangulateLine(

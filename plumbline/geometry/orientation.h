@@ -9,15 +9,15 @@
 
 namespace plumbline {
 
-// How a stored image is turned before it is used: rows and columns are exchanged where `transpose`
-// is set, and the result is mirrored left to right (`flip_x`) and top to bottom (`flip_y`). These
-// are the eight orientations of EXIF.
+// Orientation of a stored image: rows and columns are exchanged if `transpose` is set, then the
+// result is mirrored left to right (`flip_x`) and top to bottom (`flip_y`). These are the eight
+// orientations of EXIF.
 struct Orientation {
   bool transpose = false, flip_x = false, flip_y = false;
 
-  // Whether images stay as they are.
+  // Returns true if images stay unchanged.
   bool IsIdentity() const { return !transpose && !flip_x && !flip_y; }
-  // Whether it is no rotation: left and right are exchanged.
+  // Returns true for a reflection: it exchanges left and right.
   bool Mirrors() const { return transpose != (flip_x != flip_y); }
 
   friend bool operator==(const Orientation&, const Orientation&) = default;
@@ -36,12 +36,12 @@ std::string Describe(const Orientation& orientation);
 // turned one. The orientation must not mirror (BugError).
 Rigid3 TurnedFromStored(const Orientation& orientation);
 
-// Returns the camera whose images are those of another one, turned: what it projects to a pixel is
-// what the other one projects to the pixel that is turned there. Lens distortion turns, too.
+// Returns the camera of the turned images: a point projects to the turned pixel of its projection
+// in `camera`. The lens distortion turns, too.
 Camera Turned(const Camera& camera, const Orientation& orientation);
 // Returns the calibration of one camera, or of one with depth, whose images are turned. The camera
-// frame turns with the image, so that body_from_left changes; of an image that is mirrored, it
-// stays. A pair of cameras must not be turned (BugError): its cameras would not lie side by side.
+// frame turns with the image, so that body_from_left changes; for a mirrored image it stays. Throws
+// BugError for a pair of cameras: they would not stand side by side.
 Calibration Turned(Calibration calibration, const Orientation& orientation);
 
 }  // namespace plumbline

@@ -17,9 +17,9 @@ struct Parallelogram {
   Eigen::AlignedBox3d Bounds() const;
 };
 
-// Returns the distance [metres] of a point from the nearest point of the parallelogram. It is that
-// of the point's foot in the plane where the foot is inside, otherwise that of the nearest side. It
-// is also right for sides that are parallel or of no length.
+// Returns the distance [metres] of a point from the parallelogram: that of its foot in the plane if
+// the foot is inside, otherwise that of the nearest side. Also right for sides that are parallel or
+// of no length.
 double Distance(const Parallelogram& parallelogram, const Eigen::Vector3d& point);
 
 }  // namespace plumbline

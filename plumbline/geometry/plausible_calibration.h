@@ -11,13 +11,13 @@
 
 namespace plumbline {
 
-// Limits, generous ones, that the numbers of a calibration meet for any real sensor. Numbers beyond
-// them are slips of a file (a missing decimal point, other units, keys exchanged). Some would
-// overflow later, others would give results that mean nothing. All limits are here, so that every
-// format of files is held to the same ones. The reader of a file says where in it a number is.
+// Generous limits of calibrations of real sensors. Numbers beyond them are mistakes in a file (a
+// missing decimal point, other units, keys exchanged), and would overflow or give meaningless
+// results later. All limits are here, so that they are the same for every file format. The reader
+// of a file says where in it a number is.
 //
 // Each function returns what was expected and what was found, "expected rate_hz from 0.0001 to
-// 100000 Hz, found 1e+300", or nullopt where nothing is wrong. NaN is wrong everywhere.
+// 100000 Hz, found 1e+300", or nullopt if nothing is wrong. NaN is always wrong.
 
 constexpr int kLongestSide = 100'000;              // pixels
 constexpr std::int64_t kMostPixels = 100'000'000;  // pixels that an image may have
@@ -31,8 +31,8 @@ constexpr double kMinDepthFactor = 1e-3, kMaxDepthFactor = 1e7;
 std::optional<std::string> SizeFault(double width, double height);
 
 // Checks focal lengths and principal point against the size of the image, which must have passed
-// SizeFault. `number`, where given, becomes the index among fx, fy, cx, cy of the first number at
-// fault.
+// SizeFault. `number`, if not null, becomes the index among fx, fy, cx, cy of the first wrong
+// number.
 std::optional<std::string> IntrinsicsFault(const CameraIntrinsics& intrinsics,
                                            std::size_t* number = nullptr);
 
@@ -41,13 +41,12 @@ std::optional<std::string> IntrinsicsFault(const CameraIntrinsics& intrinsics,
 std::optional<std::string> DistortionFault(const CameraIntrinsics& intrinsics);
 
 // Checks the cameras of a calibration with `right`. The right camera must stand to the right of the
-// left one, at a baseline of kMinBaseline to kMaxBaseline, look the same way, have images of the
-// same size and, where these are declared rectified, not be turned.
+// left one, at a baseline of kMinBaseline to kMaxBaseline, have the same viewing direction and
+// images of the same size, and, if these are declared rectified, no relative rotation.
 std::optional<std::string> PairFault(const Calibration& calibration);
 
-// Checks a whole calibration: sizes, intrinsics and lenses of its cameras, their poses to one
-// another, and the depth factor. It is for calibrations that a program puts together, whose parts
-// no reader of files has checked.
+// Checks a whole calibration: sizes, intrinsics and lenses of its cameras, their relative pose, and
+// the depth factor. It is for calibrations made by a program, which no reader of files has checked.
 std::optional<std::string> CalibrationFault(const Calibration& calibration);
 
 // Checks that images that are declared rectified have no distortion.

@@ -56,7 +56,7 @@ struct OrthonormalLine {
 // The orthonormal form of a line. A line through the origin (m = 0) gets an arbitrary but
 // repeatable u1 normal to d.
 OrthonormalLine ToOrthonormal(const PluckerLine& line);
-// The line that an orthonormal form stands for, with a direction of length 1.
+// The line of an orthonormal form, with a direction of length 1.
 PluckerLine ToPlucker(const OrthonormalLine& line);
 
 // U <- U Exp(delta.head<3>()), w turned by delta(3) (section 3.1).
@@ -66,11 +66,10 @@ OrthonormalLine Retract(const OrthonormalLine& line, const Eigen::Vector4d& delt
 // those of the line, as PPL-SLAM has it (reference [20] of Lee and Hwang).
 OrthonormalLine RetractLeft(const OrthonormalLine& line, const Eigen::Vector4d& delta);
 
-// Does what Retract() does to first order in delta, for optimization: (m, d) moves straight along
-// its derivative, then to the nearest pair with m . d = 0. The moment of the line in any camera,
-// and with it the projected line, is linear in (m, d). Even a long Gauss-Newton step therefore ends
-// where it is meant to, while turning U and w leads away along an arc
-// (docs/methods/plucker-lines.md).
+// Equals Retract() to first order in delta; for optimization: (m, d) moves straight along its
+// derivative, then to the nearest pair with m . d = 0. The moment of the line in any camera, and
+// with it the projected line, is linear in (m, d). A long Gauss-Newton step therefore ends where
+// intended, while turning U and w deviates along an arc (docs/methods/plucker-lines.md).
 OrthonormalLine RetractStraight(const OrthonormalLine& line, const Eigen::Vector4d& delta);
 
 // d(m, d)/d(delta) at delta = 0 of the homogeneous 6-vector (eq. 19 with w21 in place of w12).

@@ -13,12 +13,12 @@ struct Disparity {
   double sigma_px = 1;
 };
 
-// The camera that all stages behind rectification see: an ideal pinhole. Beside it is a second,
-// equal one displaced by `baseline` along +x (right camera of a rectified pair). For RGB-D images
-// the right camera is virtual: depth z is carried as the disparity fx * baseline / z.
+// The camera of all stages after rectification: an ideal pinhole, with a second, equal one
+// displaced by `baseline` along +x (right camera of a rectified pair). For RGB-D images the right
+// camera is virtual: depth z is carried as the disparity fx * baseline / z.
 //
 // Camera frame: x right, y down, z forward. Pixel centres at integer coordinates. Lengths are in
-// metres, for a single camera in the map's unit.
+// metres, for a single camera in the map's scale.
 struct RectifiedCamera {
   double fx = 0, fy = 0, cx = 0, cy = 0;
   double baseline = 0;  // 0: monocular
@@ -32,14 +32,14 @@ struct RectifiedCamera {
   Eigen::Vector3d Unproject(const Eigen::Vector2d& px) const {
     return {(px.x() - cx) / fx, (px.y() - cy) / fy, 1.0};
   }
-  // Returns what is added to x in the left camera's frame to get x in the frame of a camera of the
-  // pair: index 0 is the left (or only) camera, 1 the right one.
+  // Returns the x offset from the left camera's frame to that of a camera of the pair: index 0 is
+  // the left (or only) camera, 1 the right one.
   double ShiftInto(int index) const { return index == 0 ? 0.0 : -baseline; }
   // Disparity in pixels of a point at depth z > 0.
   double DisparityFromDepth(double z) const { return fx * baseline / z; }
   // Depth of a point with a disparity in pixels, greater than 0.
   double DepthFromDisparity(double disparity) const { return fx * baseline / disparity; }
-  // Whether a pixel is at least `border` pixels inside the centres of the outermost pixels.
+  // Returns true if a pixel is at least `border` pixels inside the centres of the outermost pixels.
   bool Contains(const Eigen::Vector2d& px, double border = 0) const {
     return px.x() >= border && px.y() >= border && px.x() <= width - 1 - border &&
            px.y() <= height - 1 - border;

@@ -25,8 +25,8 @@ Eigen::Quaterniond ExpSo3(const Eigen::Vector3d& w);
 // Inverse of ExpSo3 with |result| <= pi.
 Eigen::Vector3d LogSo3(const Eigen::Quaterniond& q);
 
-// Returns the rotation by the least angle that turns the direction of `from` into that of `to`.
-// Where the directions are opposite to 0.1 degrees, it is one by some half turn.
+// Returns the rotation by the least angle that turns the direction of `from` into that of `to`. If
+// the directions are opposite to 0.1 degrees, the axis of the half turn is arbitrary.
 Eigen::Quaterniond ShortestTurn(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 // Left Jacobian of SO(3): Exp(w + dw) = Exp(LeftJacobianSo3(w) dw) Exp(w) to first order.

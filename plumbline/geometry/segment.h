@@ -11,14 +11,14 @@ namespace plumbline {
 // A straight piece of a line with two end points. Segment2: pixels; Segment3: metres.
 template <int kDim>
 struct Segment {
-  // A point of the space that the segment is in.
+  // Point in the space of the segment.
   using Vector = Eigen::Matrix<double, kDim, 1>;
   Vector start = Vector::Zero();
   Vector end = Vector::Zero();
 
   // Distance of the two ends.
   double Length() const { return (end - start).norm(); }
-  // Unit vector from start to end; not a number where they are equal.
+  // Unit vector from start to end; NaN if they are equal.
   Vector Direction() const { return (end - start).normalized(); }
   // The point half way between the ends.
   Vector Midpoint() const { return 0.5 * (start + end); }
@@ -54,7 +54,7 @@ double UndirectedAngle(const Eigen::Vector3d& direction1, const Eigen::Vector3d&
 // Distance of a point from the nearest point of a segment, metres.
 double Distance(const Segment3& segment, const Eigen::Vector3d& point);
 
-// A stretch of a segment: from and to, metres from its start.
+// An interval of a segment: from and to, metres from its start.
 struct Stretch {
   double from = 0, to = 0;
 
@@ -62,10 +62,9 @@ struct Stretch {
   double Length() const { return to - from; }
 };
 
-// Returns the points of `segment` no further than `radius` from `axis`, in any direction; nullopt
-// where there are none. Exact: they lie between the first and the last point that the segment
-// shares with the cylinder around the axis and the balls around its ends, which together are
-// convex.
+// Returns the interval of `segment` within `radius` of `axis`, in any direction; nullopt if it is
+// empty. Exact: it lies between the first and the last intersection of the segment with the
+// cylinder around the axis and the balls around its ends, whose union is convex.
 std::optional<Stretch> StretchWithin(const Segment3& segment, const Segment3& axis, double radius);
 
 }  // namespace plumbline

@@ -43,7 +43,7 @@ inline Similarity3 ToSimilarity(const Rigid3& motion) {
 // Returns a_from_b for b_from_a.
 Similarity3 Inverse(const Similarity3& b_from_a);
 
-// Returns the pose of a camera after its world has been transformed: world_b_from_cam without the
+// Returns the pose of a camera after a transformation of its world: world_b_from_cam without the
 // scale (the camera's own axes keep their length).
 Rigid3 TransformPose(const Similarity3& b_from_a, const Rigid3& a_from_cam);
 
@@ -60,9 +60,9 @@ inline Similarity3 RetractLeft(const Similarity3& similarity, const Vector7d& ta
 // Adjoint: S exp(x) S^-1 = exp(Adjoint(S) x).
 Matrix7d Adjoint(const Similarity3& similarity);
 
-// Left Jacobian: Exp(x + dx) = Exp(LeftJacobianSim3(x) dx) Exp(x) to first order. It is computed by
-// the power series in ad(x) (with the scaling and doubling of matrix functions for large x), to
-// about 1e-13.
+// Left Jacobian: Exp(x + dx) = Exp(LeftJacobianSim3(x) dx) Exp(x) to first order. Computed by the
+// power series in ad(x) (with the scaling and doubling of matrix functions for large x), to about
+// 1e-13.
 Matrix7d LeftJacobianSim3(const Vector7d& tangent);
 // The inverse of LeftJacobianSim3(x), which is the derivative of Log(exp(dx) S) at x = Log(S).
 Matrix7d InverseLeftJacobianSim3(const Vector7d& tangent);

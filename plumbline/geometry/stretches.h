@@ -9,13 +9,13 @@
 
 namespace plumbline {
 
-// Returns the parts of a line that at least `count` of the stretches cover. They are disjoint and
+// Returns the intervals of a line covered by at least `count` of the stretches, disjoint and
 // ascending; stretches that touch count as one. With count 1 this is the union. O(n log n).
 std::vector<Stretch> CoveredAtLeast(std::span<const Stretch> stretches, int count);
 
-// Returns the parts that at least `count` of the stretches cover, and at least `share` times as
-// many of them as of `expected`: where the line was shown often enough, compared with how often it
-// should have been.
+// Returns the intervals covered by at least `count` of the stretches, and by at least `share` times
+// as many of them as of `expected`: the parts of a line observed often enough, compared with the
+// observations expected.
 std::vector<Stretch> WellCovered(std::span<const Stretch> stretches,
                                  std::span<const Stretch> expected,
                                  int count,

@@ -8,12 +8,12 @@
 
 namespace plumbline {
 
-// Normal equations of a few unknowns, by Eigen's LDL^T and LL^T. A compiler needs some seconds for
-// them wherever they are used; here each size is compiled once, in symmetric_system.cc. Only the
-// lower triangle of a matrix is read.
+// Normal equations of a few unknowns, by Eigen's LDL^T and LL^T. Each size is compiled once, in
+// symmetric_system.cc, since each instantiation takes a compiler some seconds. Only the lower
+// triangle of a matrix is read.
 
-// Returns x with matrix x = right, by LDL^T. N: 3, 4, 5, 6. Where the matrix is singular, numbers
-// that it does not determine are zero or not finite.
+// Returns x with matrix x = right, by LDL^T. N: 3, 4, 5, 6. If the matrix is singular, undetermined
+// unknowns are zero or not finite.
 template <int N>
 Eigen::Matrix<double, N, 1> SolveSymmetric(const Eigen::Matrix<double, N, N>& matrix,
                                            const Eigen::Matrix<double, N, 1>& right);

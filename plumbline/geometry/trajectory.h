@@ -21,15 +21,15 @@ struct StampedPose {
 using Trajectory = std::vector<StampedPose>;
 
 // Returns the pose at a stamp: linear in position, slerp in orientation between the two neighbours.
-// Returns nullopt outside the trajectory's time and where the neighbours are more than max_gap_ns
-// apart; a stamp that the trajectory contains always has a pose. Throws InputError for a rotation
-// that is none (unit_rotation.h). O(log n).
+// Returns nullopt outside the trajectory's time and if the neighbours are more than max_gap_ns
+// apart; a stamp of the trajectory always has a pose. Throws InputError for an invalid rotation
+// (unit_rotation.h). O(log n).
 std::optional<Rigid3> InterpolateAt(const Trajectory& trajectory,
                                     std::int64_t stamp_ns,
                                     std::int64_t max_gap_ns);
 
-// Returns the index of the pose nearest in time (the earlier one of two equally near ones); nullopt
-// when it is further away than max_difference_ns. O(log n).
+// Returns the index of the pose nearest in time (ties: the earlier one); nullopt if it is further
+// away than max_difference_ns. O(log n).
 std::optional<std::size_t> NearestIndex(const Trajectory& trajectory,
                                         std::int64_t stamp_ns,
                                         std::int64_t max_difference_ns);
@@ -38,8 +38,8 @@ std::optional<std::size_t> NearestIndex(const Trajectory& trajectory,
 // twice, this gives the original trajectory.
 Trajectory TimeReversed(Trajectory trajectory, std::int64_t mirror_ns);
 
-// Returns the trajectory with the rotations that UnitRotation (unit_rotation.h) gives; its error
-// names the pose: "WHAT: pose 3 (from 0): expected ...".
+// Returns the trajectory with its rotations checked and normalized by UnitRotation
+// (unit_rotation.h), whose error names the pose: "WHAT: pose 3 (from 0): expected ...".
 Trajectory WithUnitRotations(Trajectory trajectory, std::string_view what);
 
 // Returns the sum of the distances between successive positions, in metres.

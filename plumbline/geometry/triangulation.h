@@ -49,11 +49,11 @@ struct TriangulatedPoint {
   int residuals = 0;    // number of them; chi2 has residuals - 3 degrees of freedom
 };
 
-// Finds a point from two or more views. The linear solution (DLT in the first camera's frame) is
-// refined by Gauss-Newton on the reprojection and disparity errors; the normal matrix gives the
-// covariance.
+// Triangulates a point from two or more views. The linear solution (DLT in the first camera's
+// frame) is refined by Gauss-Newton on the reprojection and disparity errors; the normal matrix
+// gives the covariance.
 //
-// The caller has to judge whether chi2 is acceptable. O(n), parallax O(n^2).
+// The caller must check chi2. O(n), parallax O(n^2).
 Expected<TriangulatedPoint, PointTriangulationFailure> TriangulatePoint(
     const RectifiedCamera& camera,
     std::span<const PointView> views,

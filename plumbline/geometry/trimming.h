@@ -12,18 +12,18 @@
 
 namespace plumbline {
 
-// A piece of a PluckerLine, from parameter start to parameter end: Foot() + t * direction.
+// An interval of a PluckerLine, from parameter start to parameter end: Foot() + t * direction.
 struct LineInterval {
   double start = 0;
   double end = 0;
 };
 
-// Returns the parameter of the point of a 3D line that belongs to a pixel beside its projection.
+// Returns the parameter of the point of a 3D line that corresponds to a pixel near its projection.
 //
-// Cuts the line with the plane through the camera centre and the image line that meets the
-// projected line at right angles in the foot of the pixel (first paper, eq. 26-30). The
-// perpendicular image line is (l2, -l1, l1 y - l2 x) through the foot (x, y), in place of eq.
-// 28-29, which fail for horizontal and vertical lines.
+// Intersects the line with the plane through the camera centre and the image line perpendicular to
+// the projected line at the foot of the pixel (first paper, eq. 26-30). The perpendicular image
+// line is (l2, -l1, l1 y - l2 x) through the foot (x, y), in place of eq. 28-29, which fail for
+// horizontal and vertical lines.
 //
 //   cam_from_world  pose of the camera; line_in_world in the same world
 //   px              rectified pixel
@@ -35,7 +35,7 @@ std::optional<double> TrimmedParameter(const RectifiedCamera& camera,
                                        const PluckerLine& line_in_world,
                                        const Eigen::Vector2d& px);
 
-// Returns the parameters of both ends of an observed segment. end < start where the segment runs
+// Returns the parameters of both ends of an observed segment. end < start if the segment runs
 // against the line's direction.
 std::optional<LineInterval> TrimToSegment(const RectifiedCamera& camera,
                                           const Rigid3& cam_from_world,

@@ -13,11 +13,11 @@
 
 namespace plumbline {
 
-// What makes a straight line of a known world visible.
+// Visible cause of a straight line of a known world.
 enum class TrueLineKind {
-  kGeometry,  // it is an edge of a body
-  kTexture,   // it is painted on a surface
-  kShadow,    // it is the border of a shadow
+  kGeometry,  // edge of a body
+  kTexture,   // painted on a surface
+  kShadow,    // border of a shadow
 };
 constexpr auto EnumNames(std::type_identity<TrueLineKind>) {
   return std::array{std::pair{TrueLineKind::kGeometry, "geometry"},
@@ -33,15 +33,14 @@ struct FrameRange {
   bool operator==(const FrameRange&) const = default;
 };
 
-// A straight line of a known world, as a perfect line map would have it.
+// A straight line of a known world, as in a perfect line map.
 struct TrueLine {
   Segment3 segment;  // metres, world of the ground truth
   TrueLineKind kind = TrueLineKind::kGeometry;
-  // The frames in which any of it is seen, ascending and disjoint; nullopt where nobody recorded
-  // them.
+  // The frames that see any part of it, ascending and disjoint; nullopt if not recorded.
   std::optional<std::vector<FrameRange>> visible = std::nullopt;
 
-  // Number of frames that see it; nullopt where nobody recorded them.
+  // Number of frames that see it; nullopt if not recorded.
   std::optional<std::int64_t> VisibleFrames() const {
     if (!visible) return std::nullopt;
     std::int64_t count = 0;

@@ -8,12 +8,12 @@
 
 namespace plumbline {
 
-// The rule for rotations that callers hand in, and for those of files: a quaternion is a rotation
-// where its norm is 1 to within kMostNormError. One that is off by no more is normalized; one that
-// is off by rounding alone (1e-9) stays as it is, to the last bit. Any other is refused.
+// Rule for rotations given by callers and files: a quaternion is a rotation if its norm is 1 to
+// within kMostNormError. It is then normalized, unless its norm is 1 up to rounding (1e-9): then it
+// stays the same to the last bit. Any other quaternion is refused.
 constexpr double kMostNormError = 0.01;
 
-// Whether the norm is 1 to within kMostNormError; false for NaN.
+// Returns true if the norm is 1 to within kMostNormError; false for NaN.
 bool IsRotation(const Eigen::Quaterniond& quaternion);
 
 // Returns the rotation by the rule above. Throws InputError "WHAT: expected a quaternion of norm 1,
