@@ -15,13 +15,11 @@ struct PointInImage {
   Eigen::Vector2d px;
 };
 
-// Returns the pose (cam_from_world) with which the points agree best: RANSAC over three points
-// (Grunert 1841) in at most 300 rounds; every new best pose is refined with the points that agree
-// (ransac.h). A point agrees when it projects within max_error_px of its pixel. The same input
-// gives the same pose.
+// Returns the pose (cam_from_world) that best fits the points: RANSAC over three points (Grunert
+// 1841) in at most 300 rounds; every new best pose is refined with its inliers (ransac.h). Inliers
+// project within max_error_px of their pixels. The same input gives the same pose.
 //
-// Returns nullopt with fewer than 6 points, or when fewer than 6 agree. Cost: less than a
-// millisecond for 100 points.
+// Returns nullopt for fewer than 6 points or inliers. Cost: less than a millisecond for 100 points.
 std::optional<Rigid3> PoseFromPoints(const RectifiedCamera& camera,
                                      const std::vector<PointInImage>& points,
                                      double max_error_px);

@@ -20,8 +20,8 @@ class EpipolarCost {
  public:
   explicit EpipolarCost(std::span<const RayMatch> matches);
 
-  // Returns the sum over the matches of min(SampsonChi2, gate). Stops with a part of the sum once
-  // that is above `limit`.
+  // Returns the sum over the matches of min(SampsonChi2, gate); stops with a partial sum once it
+  // exceeds `limit`.
   double Truncated(const Eigen::Matrix3d& essential, double gate, double limit) const;
 
   // Returns the number of matches with SampsonChi2 below gate.

@@ -11,7 +11,7 @@
 namespace plumbline {
 
 // Returns the median angle [radians] between R x_a and x_b over the matches, with R = b_from_a: the
-// parallax, where R is right. Returns 0 without matches.
+// parallax, if R is right. Returns 0 without matches.
 double MedianParallax(std::span<const RayMatch> matches, const Eigen::Quaterniond& b_from_a);
 
 }  // namespace plumbline

@@ -17,9 +17,9 @@
 
 namespace plumbline {
 
-// Returns the number of samples to draw, `most` at most, for one of inliers alone.
+// Returns the number of samples, at most `most`, needed to draw one of inliers alone.
 inline int SamplesNeeded(double inlier_ratio, int sample_size, int most) {
-  constexpr double kConfidence = 0.999;  // probability of having drawn such a sample
+  constexpr double kConfidence = 0.999;  // probability of drawing a sample of inliers
   const double good = math::Pow(std::clamp(inlier_ratio, 0.0, 1.0), sample_size);
   if (good >= 1) return 1;
   if (good <= 1e-12) return most;
@@ -27,7 +27,7 @@ inline int SamplesNeeded(double inlier_ratio, int sample_size, int most) {
   return static_cast<int>(std::clamp(std::ceil(needed), 1.0, static_cast<double>(most)));
 }
 
-// Returns `count` different indices below `size`, which must be at least as large.
+// Returns `count` different indices below `size`, which must be at least `count`.
 template <std::size_t kCount>
 std::array<std::size_t, kCount> DrawSample(std::size_t size, Rng& rng) {
   std::array<std::size_t, kCount> sample;
@@ -48,9 +48,9 @@ struct ScoredModel {
 // LO-RANSAC (Chum, Matas and Kittler 2003) with the truncated cost of MSAC (Torr and Zisserman
 // 2000). It tries models of random samples. Every new best model is improved from all data, and the
 // number of samples adapts to its inliers. The computation of a cost stops as soon as it exceeds
-// what matters.
+// the limit that matters.
 //
-// `Problem` gives
+// `Problem` provides
 //   using Model = ...;
 //   static constexpr std::size_t kSampleSize;
 //   std::size_t size() const;
@@ -61,7 +61,7 @@ struct ScoredModel {
 //   bool Same(const Model&, const Model&) const;    // for `keep`
 //
 // The result is the best model, then those models whose cost is within `keep` times its cost and
-// that differ from every better one. `guesses` are tried before anything is drawn.
+// that differ from every better one. `guesses` are tried before any sample.
 template <class Problem>
 class Ransac {
  public:
@@ -97,7 +97,7 @@ class Ransac {
     return kept_.empty() ? std::numeric_limits<double>::infinity() : keep_ * kept_.front().cost;
   }
 
-  // Tries a model. Returns whether it is the new best.
+  // Tries a model. Returns true if it is the new best.
   bool Consider(const Model& model) {
     const double cost = problem_.Cost(model, Limit());
     if (!(cost < Limit())) return false;
@@ -112,7 +112,7 @@ class Ransac {
     return true;
   }
 
-  // Keeps a model in the order of cost; of models that are the same only the best stays.
+  // Keeps a model in the order of cost; of equivalent models (Problem::Same) only the best stays.
   void Keep(Scored scored) {
     for (const Scored& other : kept_) {
       if (other.cost <= scored.cost && problem_.Same(other.model, scored.model)) return;

@@ -6,8 +6,8 @@
 
 namespace plumbline {
 
-// A point seen by two cameras: its ideal image coordinates (x/z, y/z) in both, and the standard
-// deviation of each coordinate (pixels over the focal length).
+// A point seen by two cameras: its normalized image coordinates (x/z, y/z) in both, and the
+// standard deviation of each coordinate (pixels over the focal length).
 struct RayMatch {
   Eigen::Vector2d a = Eigen::Vector2d::Zero();
   Eigen::Vector2d b = Eigen::Vector2d::Zero();

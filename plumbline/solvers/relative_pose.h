@@ -20,18 +20,18 @@ class Rng;
 
 enum class RelativePoseModel { kEssential, kHomography };
 
-// A pose that explains the matches, with all that was found out about it.
+// A relative pose that explains the matches, with its support and uncertainty.
 struct RelativePoseHypothesis {
-  RelativePoseModel model = RelativePoseModel::kEssential;  // the model by which it was found
+  RelativePoseModel model = RelativePoseModel::kEssential;  // the model that gave it
   Rigid3 b_from_a;                                          // |translation| = 1
-  // For each match, whether its Sampson distance is within chi2 95 % (1 degree of freedom).
+  // For each match: true if its Sampson distance is within chi2 95 % (1 degree of freedom).
   std::vector<bool> is_inlier;
   int inliers = 0;
   int in_front = 0;  // inliers that triangulate in front of both cameras
   double cost = 0;   // sum over matches of min(chi2, gate)
   // Covariance of (w, d): rotation <- Exp(w) rotation, translation <- translation +
-  // BasisAcross(translation) d (pose_refinement.h). Infinite on the diagonal where the matches do
-  // not fix the pose.
+  // BasisAcross(translation) d (pose_refinement.h). Infinite on the diagonal if the matches do not
+  // determine the pose.
   Eigen::Matrix<double, 5, 5> covariance = Eigen::Matrix<double, 5, 5>::Zero();
 };
 
@@ -42,32 +42,32 @@ constexpr auto EnumNames(std::type_identity<RelativePoseMethod>) {
 }
 
 struct RelativePoseOptions {
-  // The method; eight points, as in the paper, fail on planes.
+  // Minimal solver; eight points, as in the paper, fail on planes.
   RelativePoseMethod method = RelativePoseMethod::kFivePoint;
-  int max_iterations = 500;  // most samples that are drawn
+  int max_iterations = 500;  // largest number of samples
 };
 
 // Returns all relative poses that explain the matches, the best first.
 //
 // LO-RANSAC runs with the five-point solver and also with homographies, whose two decompositions
-// are both kept (two views of a plane cannot tell which is right). With method eight_point it runs
-// with the eight-point solver alone, as in the first paper. Each pose is refined on the Sampson
-// distance (RefinePose). The count of points in front decides about the sign of the translation,
-// and about the rotation of the pair that an essential matrix has. A hypothesis is kept when its
-// inliers are at least 0.7 times those of the best, and when it is more than 0.3 degrees in
-// rotation or 3 degrees in direction from each better one.
+// are both kept (two views of a plane cannot tell them apart). With method eight_point it runs with
+// the eight-point solver alone, as in the first paper. Each pose is refined on the Sampson distance
+// (RefinePose). The number of points in front determines the sign of the translation, and the
+// rotation of the two of an essential matrix. A hypothesis is kept if its inliers are at least 0.7
+// times those of the best, and if it differs by more than 0.3 degrees in rotation or 3 degrees in
+// direction from each better one.
 //
-//   guesses  poses to begin with (|translation| > 0), as from constant velocity
-//   returns  sorted by cost; empty with fewer matches than a sample has, or when no sample gave a
-//            pose. Where there is no parallax, the direction of the translation is that of the
-//            noise, and the covariance says so.
+//   guesses  initial poses (|translation| > 0), for instance from constant velocity
+//   returns  sorted by cost; empty for fewer matches than a sample has, or if no sample gave a
+//            pose. Without parallax, the direction of the translation is noise, as its covariance
+//            shows.
 //   cost     1 to 2 ms for 300 matches of which a fifth are wrong
 std::vector<RelativePoseHypothesis> EstimateRelativePoses(std::span<const RayMatch> matches,
                                                           const RelativePoseOptions& options,
                                                           Rng& rng,
                                                           std::span<const Rigid3> guesses = {});
 
-// Whether a match, triangulated, is in front of both cameras.
+// Returns true if a match, triangulated, is in front of both cameras.
 bool IsInFront(const Rigid3& b_from_a, const RayMatch& match);
 
 }  // namespace plumbline

@@ -18,8 +18,7 @@
 
 namespace plumbline {
 
-// The problems of two views as RANSAC (ransac.h) needs them. They refer to the matches, which must
-// outlive them.
+// Two-view problems for RANSAC (ransac.h). They refer to the matches, which must outlive them.
 
 // Essential matrices, Frobenius norm 1, from samples of five.
 class EssentialProblem {
@@ -35,7 +34,7 @@ class EssentialProblem {
   double InlierRatio(const Model& E) const;
   // Improves E by a few steps of RefinePose under a wide loss.
   Model Improve(const Model& E) const;
-  // Whether both are the same up to their sign.
+  // Returns true if both are equal up to sign.
   bool Same(const Model& E, const Model& F) const;
 
  protected:
@@ -43,7 +42,7 @@ class EssentialProblem {
 
  private:
   EpipolarCost cost_;
-  std::vector<RayMatch> thinned_;  // enough of the matches to come near the solution
+  std::vector<RayMatch> thinned_;  // subset of the matches, enough to come near the solution
 };
 
 class FivePointProblem : public EssentialProblem {
