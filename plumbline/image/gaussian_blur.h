@@ -9,19 +9,19 @@
 
 namespace plumbline {
 
-// How an image is continued beyond its border: with the pixel there, or reflected in it.
+// Continuation of an image beyond its border: repeated border pixel, or reflection.
 enum class ImageBorder { kRepeated, kReflected };
 
 // Half of a symmetric kernel of seven pixels, from the farthest pixel to the middle, in 256ths. The
-// whole kernel adds up to 256.
+// whole kernel sums up to 256.
 using BlurWeights = std::array<std::uint16_t, 4>;
 // Gaussians with deviations of 1 and 2 pixels, as OpenCV rounds them.
 inline constexpr BlurWeights kBlurSigma1{1, 14, 62, 102};
 inline constexpr BlurWeights kBlurSigma2{18, 34, 48, 56};
 
-// Returns the image smoothed along rows and columns, in whole numbers, rounded once at the end. It
-// is bit by bit what cv::GaussianBlur gives for an image of 8 bits with these weights, in a fifth
-// of the instructions. Cost: about 1 ns a pixel.
+// Returns the image smoothed along rows and columns, in integers, rounded once at the end. Equals
+// cv::GaussianBlur for an image of 8 bits with these weights bit by bit, in a fifth of the
+// instructions. Cost: about 1 ns a pixel.
 GrayImage Blurred(const GrayImage& image, const BlurWeights& weights, ImageBorder border);
 
 }  // namespace plumbline

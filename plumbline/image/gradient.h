@@ -19,8 +19,8 @@ struct GradientImage {
 
 inline constexpr double kSobelGain = 8;
 
-// Returns the gradient of the image, after a Gaussian blur with `sigma` pixels when sigma > 0.
-// Cost: two passes.
+// Returns the gradient of the image, after a Gaussian blur with `sigma` pixels if sigma > 0. Cost:
+// two passes.
 GradientImage ComputeGradient(const GrayImage& image, double sigma = 0);
 
 }  // namespace plumbline

@@ -11,7 +11,7 @@
 
 namespace plumbline {
 
-// An image of one channel, rows top to bottom without padding. It is a value: a copy copies the
+// An image of one channel, rows top to bottom without padding. A value type: a copy copies the
 // pixels.
 template <class T>
 class Image {
@@ -27,19 +27,19 @@ class Image {
   int width() const { return width_; }
   // Rows.
   int height() const { return height_; }
-  // Whether there are no pixels.
+  // Returns true if it has no pixels.
   bool empty() const { return pixels_.empty(); }
   // The pixels, width() * height() of them.
   T* data() { return pixels_.data(); }
   // The pixels, width() * height() of them.
   const T* data() const { return pixels_.data(); }
-  // The pixels of row y, which is not checked.
+  // Pixels of row y; not checked.
   T* row(int y) { return pixels_.data() + static_cast<std::ptrdiff_t>(y) * width_; }
-  // The pixels of row y, which is not checked.
+  // Pixels of row y; not checked.
   const T* row(int y) const { return pixels_.data() + static_cast<std::ptrdiff_t>(y) * width_; }
-  // The pixel in column x of row y, which are not checked.
+  // Pixel in column x and row y; not checked.
   T& at(int x, int y) { return row(y)[x]; }
-  // The pixel in column x of row y, which are not checked.
+  // Pixel in column x and row y; not checked.
   const T& at(int x, int y) const { return row(y)[x]; }
 
  private:
@@ -50,10 +50,10 @@ class Image {
 
 // Grey levels, 0 black to 255 white.
 using GrayImage = Image<std::uint8_t>;
-// Metres along z; 0 where there is no measurement.
+// Metres along z; 0 if not measured.
 using DepthImage = Image<float>;
 
-// What the sensors delivered at one instant, as decoded, before rectification.
+// Images and depth of one instant, as decoded, before rectification.
 struct SensorFrame {
   std::int64_t stamp_ns = 0;
   GrayImage left;

@@ -12,7 +12,7 @@ namespace plumbline {
 
 struct PyramidLevel {
   GrayImage image;
-  // Full-size pixels per level pixel along x and y, from the real sizes (these are rounded).
+  // Full-size pixels per level pixel along x and y, from the actual (rounded) sizes.
   Eigen::Vector2d scale = Eigen::Vector2d::Ones();
 
   // Pixel centres are at integers: full = (level + 0.5) * scale - 0.5.
@@ -29,7 +29,7 @@ using ImagePyramid = std::vector<PyramidLevel>;
 
 // Returns a pyramid. Each level is the level below resized (bilinear), so that level k is
 // `factor`^k times smaller than level 0. It stops before a side would be shorter than `min_side`
-// pixels; level 0 is always there.
+// pixels; level 0 always exists.
 ImagePyramid BuildPyramid(const GrayImage& image, int levels, double factor, int min_side = 40);
 
 }  // namespace plumbline

@@ -16,7 +16,7 @@
 
 namespace plumbline {
 
-// A frame as the ideal camera would have taken it.
+// A frame as seen by the rectified camera.
 struct RectifiedFrame {
   std::int64_t stamp_ns = 0;
   GrayImage left;
@@ -24,50 +24,48 @@ struct RectifiedFrame {
   std::optional<DepthImage> depth;
 };
 
-// Turns raw images into those of an ideal pinhole camera, and stereo pairs into pairs with
+// Rectifies raw images to those of an ideal pinhole camera, and stereo pairs to pairs with
 // corresponding points in the same row.
 //
-// Stereo: both images are turned so that x runs along the baseline and z along the mean of the two
+// Stereo: both images are rotated so that x runs along the baseline and z along the mean of the two
 // optical axes. Mono, RGB-D: only the distortion is removed. The ideal camera has the input's size
 // and square pixels. Its focal length is the smallest at which (nearly) every pixel of both images
 // comes from a real pixel, kept within 0.5 to 1.3 of the raw one. Images that need no change are
-// passed on as they are.
+// passed through.
 class Rectifier {
  public:
-  // Throws InputError where the two cameras of a pair differ in size, the second one is not to the
+  // Throws InputError if the two cameras of a pair differ in size, the second one is not to the
   // right of the first, or `rectified` is set but the numbers contradict it. O(pixels), some 10 ms.
   explicit Rectifier(const Calibration& calibration);
   ~Rectifier();
   Rectifier(Rectifier&&) noexcept;
   Rectifier& operator=(Rectifier&&) noexcept;
 
-  // The ideal camera; its baseline is the true one (stereo), the virtual one (RGB-D) or 0 (mono).
+  // The ideal camera; its baseline is the true one (stereo), a virtual one (RGB-D) or 0 (mono).
   const RectifiedCamera& camera() const { return camera_; }
   const Calibration& calibration() const { return calibration_; }
-  // Turns directions of the left camera as delivered into its rectified frame, which has the same
-  // centre.
+  // Rotation from the left camera as delivered to its rectified frame, which has the same centre.
   const Eigen::Quaterniond& rectified_left_from_left() const { return rectified_left_from_left_; }
 
-  // Returns the ideal images of a frame; pass an rvalue to save copies where nothing is to be done.
+  // Returns the rectified images of a frame; pass an rvalue to save copies if nothing changes.
   // Linear interpolation at 1/32 px, depth by the nearest neighbour. Pixels from beyond the raw
-  // image repeat its border (depth: 0). A right or depth image that the calibration does not know
-  // is dropped; one that is missing stays missing. Throws InputError for images of another size
-  // than calibrated. Several threads may call it at once. A helper, if given, does the right or
-  // depth image.
+  // image repeat its border (depth: 0). Right or depth images without a calibration are dropped;
+  // missing ones stay missing. Throws InputError for images of another size than calibrated.
+  // Thread-safe. A helper, if given, processes the right or depth image.
   RectifiedFrame Apply(SensorFrame frame, HelperThread* helper = nullptr) const;
 
-  // 255 where all of a pixel comes from real pixels, otherwise 0; same size as the images. Edges
+  // 255 for pixels interpolated from real pixels alone, otherwise 0; same size as the images. Edges
   // along the border of this region are not edges of the scene.
   const GrayImage& left_mask() const { return left_mask_; }
   const GrayImage& right_mask() const { return right_mask_; }  // empty without a right camera
 
-  // Returns where a raw pixel lies in the ideal image, without rounding. Returns nullopt beyond the
+  // Returns the rectified position of a raw pixel, without rounding. Returns nullopt beyond the
   // domain of the camera model or behind the rectified image plane.
   std::optional<Eigen::Vector2d> RectifyLeft(const Eigen::Vector2d& raw_px) const;
   std::optional<Eigen::Vector2d> RectifyRight(const Eigen::Vector2d& raw_px) const;
 
  private:
-  struct Maps;  // maps as of cv::remap; null where images pass unchanged
+  struct Maps;  // maps as of cv::remap; null if images pass unchanged
 
   Calibration calibration_;
   RectifiedCamera camera_;

@@ -28,13 +28,12 @@ Image<T> Turned(const Image<T>& image, const Orientation& orientation) {
   return turned;
 }
 
-// Returns an image of another size, at most that of `image`, whose pixels are the means of the
-// areas that they cover there, rounded to the nearest level; the same bytes on every processor.
-// O(pixels).
+// Returns an image reduced to another size, at most that of `image`, by area averaging: each pixel
+// is the mean over its area in `image`, rounded to the nearest level; the same bytes on every
+// processor. O(pixels).
 GrayImage AreaAveraged(const GrayImage& image, int width, int height);
 
-// Returns an image of another size whose pixels are the ones at their centres: values on both sides
-// of an edge are not mixed.
+// Returns an image resized by nearest neighbours: values on both sides of an edge are not mixed.
 DepthImage NearestPixels(const DepthImage& image, int width, int height);
 
 }  // namespace plumbline

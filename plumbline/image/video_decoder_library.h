@@ -11,7 +11,7 @@ namespace plumbline {
 
 class VideoDecoder;  // opencv_modules.h
 
-// Opens a video file. Returns nullptr where FFmpeg finds none.
+// Opens a video file. Returns nullptr if FFmpeg does not recognize it.
 std::unique_ptr<VideoDecoder> OpenVideoDecoder(const std::string& path);
 
 }  // namespace plumbline
