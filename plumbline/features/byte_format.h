@@ -33,7 +33,7 @@ void TransferDescriptors(Archive& archive, Items& items, const Get& get) {
   for (auto& item : items) Transfer(archive, get(item));
 }
 
-// Transfers which items of a list are there; returns pointers to them.
+// Transfers the presence of each item of a list of optionals; returns pointers to the present ones.
 template <class Archive, class List>
 auto TransferPresence(Archive& archive, List& list) {
   using Item = std::remove_reference_t<decltype(*list.front())>;

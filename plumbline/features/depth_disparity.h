@@ -18,12 +18,12 @@ struct DepthDisparityOptions {
   double max_depth_m = 8;
 };
 
-// Returns the disparity fx * baseline / z of each point from a registered depth image; nullopt
-// where depth is missing, out of range, or jumps inside the 3x3 neighbourhood.
+// Returns the disparity fx * baseline / z of each point from a registered depth image; nullopt if
+// depth is missing, out of range, or jumps inside the 3x3 neighbourhood.
 //
 // sigma_z follows the structured-light model a + b (z - 0.4)^2 (Nguyen, Izadi and Lovell, 3DIMPVT
 // 2012). The deviation of a disparity is fx * baseline / z^2 * sigma_z, plus the slope of the depth
-// across half a pixel, by which depth and colour may be misregistered.
+// across half a pixel, a possible misregistration of depth and colour.
 std::vector<std::optional<Disparity>> PointDisparities(const RectifiedCamera& camera,
                                                        const DepthImage& depth,
                                                        const std::vector<PointFeature>& points,
@@ -32,10 +32,9 @@ std::vector<std::optional<Disparity>> PointDisparities(const RectifiedCamera& ca
 // Returns the virtual right line of each line from a registered depth image: ends (u - d, v).
 //
 // Depth is sampled along the line and a little to both sides. Of the two sides the nearer surface
-// is taken, since a line on an occluding edge belongs to it. 1/z is linear along the image of a
-// straight 3D line, so that a straight course of disparity over arc length is fitted: first the
-// best of all sample pairs, then by least squares over its inliers. nullopt when too few samples
-// agree.
+// is used, to which a line on an occluding edge belongs. 1/z is linear along the image of a
+// straight 3D line, so that disparity is fitted as a linear function of arc length: first the best
+// of all sample pairs, then least squares over its inliers. nullopt if too few samples agree.
 std::vector<std::optional<RightLine>> VirtualRightLines(const RectifiedCamera& camera,
                                                         const DepthImage& depth,
                                                         const std::vector<LineFeature>& lines,

@@ -31,7 +31,7 @@ struct FeatureOptions {
   bool lines = true;
   int line_count = 200;
   LineDetector line_detector = LineDetector::kDrawing;
-  bool parallel = true;  // work is done in two threads, with the same result
+  bool parallel = true;  // uses two threads, with the same result
   OrbOptions orb;
   LineDetectionOptions line;
   StereoPointOptions stereo_points;
@@ -39,9 +39,8 @@ struct FeatureOptions {
   DepthDisparityOptions depth;
 };
 
-// The images of one rectified frame, which the caller keeps alive. `left` is required; of `right`
-// and `depth` at most one is used (right first). A valid region may be null: then all pixels count
-// as valid.
+// The images of one rectified frame; the caller owns them. `left` is required; of `right` and
+// `depth` at most one is used (right first). A null valid region means that all pixels are valid.
 struct FeatureInput {
   const GrayImage* left = nullptr;
   const GrayImage* right = nullptr;
@@ -50,22 +49,22 @@ struct FeatureInput {
   const ValidRegion* right_valid = nullptr;
 };
 
-// Measures what the pose of a frame is found from: points and lines of the left image, and for
-// stereo and RGB-D the disparities of the points, all rounded to single precision. No line gets a
-// right line. Images must have the size of the camera (BugError otherwise). The same input gives
-// the same bytes. With options.parallel the work is shared with the helper, or with one that is
-// made for the call. `left_pyramid`, where it is given, becomes the pyramid of the left image that
-// the points were found in (BuildOrbPyramid); without points it is empty.
+// Extracts the features for pose estimation: points and lines of the left image, and for stereo and
+// RGB-D the disparities of the points, all rounded to single precision. Right lines stay empty.
+// Images must have the size of the camera (BugError otherwise). The same input gives the same
+// bytes. With options.parallel the work is shared with `helper`, or with a thread started for the
+// call. `left_pyramid`, if not null, becomes the pyramid of the left image for the points
+// (BuildOrbPyramid); without points it is empty.
 Features ExtractFeatures(const RectifiedCamera& camera,
                          const FeatureInput& input,
                          const FeatureOptions& options,
                          HelperThread* helper = nullptr,
                          ImagePyramid* left_pyramid = nullptr);
 
-// Returns where the lines that ExtractFeatures found are in the right image, or would be by the
-// depth image (see Features::line_right), rounded to single precision; one entry for each line.
-// Only new landmarks need it, and most frames make none. Costs as much as the lines of the left
-// image.
+// Returns the right-image positions of the lines found by ExtractFeatures, measured in the right
+// image or predicted from the depth image (see Features::line_right), rounded to single precision;
+// one entry for each line. Only new landmarks need them, and most frames make none. Costs as much
+// as the lines of the left image.
 std::vector<std::optional<RightLine>> FindRightLines(const RectifiedCamera& camera,
                                                      const FeatureInput& input,
                                                      const FeatureOptions& options,

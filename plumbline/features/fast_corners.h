@@ -21,21 +21,20 @@ struct FastCorner {
   float response = 0;  // the largest threshold at which the pixel is a corner, grey levels
 };
 
-// Finds FAST corners of one image (Rosten and Drummond 2006) at any threshold. Of 16 pixels on a
-// circle around a corner, 9 in a row are all brighter than it, or all darker, by more than the
-// threshold. The corners are those of cv::FAST with suppression of what is not a local maximum, but
-// take a fraction of the time where several thresholds are asked for: the contrast of each pixel is
-// computed once, for many pixels at once, independently of the pixels before.
+// Finds FAST corners of one image (Rosten and Drummond 2006) at any threshold: 9 contiguous pixels
+// of 16 on a circle are all brighter than the centre, or all darker, by more than the threshold.
+// Equals cv::FAST with non-maximum suppression, but takes a fraction of its time for several
+// thresholds: the contrast of each pixel is computed once, vectorized.
 class FastCorners {
  public:
   static constexpr int kReach = 3;  // radius of the circle
 
-  // Looks at the pixels of `area`, which must be at least kReach away from the border. Cost: some
-  // 0.5 ns a pixel with AVX2, twice that without.
+  // Computes the contrast of the pixels of `area`, which must be at least kReach away from the
+  // border. Cost: some 0.5 ns a pixel with AVX2, twice that without.
   FastCorners(const GrayImage& image, const PixelBox& area);
 
-  // Appends, row by row, the corners in a part of the area that exceed the threshold and the
-  // corners beside them in that part.
+  // Appends, row by row, the corners in `part` of the area that exceed the threshold and are local
+  // maxima within it.
   void Collect(const PixelBox& part, int threshold, std::vector<FastCorner>* corners) const;
 
  private:

@@ -8,8 +8,8 @@
 
 namespace plumbline {
 
-// What a run has learned about the cameras beyond their calibration, and by which features are
-// corrected: the displacement of a pair's images, and the distortion of a single camera's lens.
+// Correction of features learned during a run, beyond the calibration: the displacement between the
+// images of a pair, and the lens distortion of a single camera.
 struct FeatureCorrection {
   StereoCorrection stereo = {};
   LensCorrection lens = {};
@@ -18,10 +18,10 @@ struct FeatureCorrection {
   bool IsPlausible() const;
 };
 
-// Gives features another correction than `before`, which they have. The measured numbers, which
-// have single precision, are recovered exactly (where the correction changes by less than half a
-// pixel from pixel to pixel) and corrected anew. The result does not depend on the corrections in
-// between, to the last bit.
+// Replaces the correction `before` of features by another one. The measured numbers, which have
+// single precision, are recovered exactly (if the correction changes by less than half a pixel from
+// pixel to pixel) and corrected anew. The result does not depend on earlier corrections, to the
+// last bit.
 void Correct(const FeatureCorrection& before,
              const FeatureCorrection& correction,
              Features& features);

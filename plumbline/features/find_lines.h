@@ -12,12 +12,11 @@
 namespace plumbline {
 
 // Finds the straight lines of a whole image with their descriptors: DetectLines and DescribeLines
-// on the gradient that both need. This is what a run measures in an image that needs no
-// rectification.
+// on their common gradient. Equals the lines of a run for an image that needs no rectification.
 //
-//   image     pixels as the camera gave them; lines are straight only where the lens is
-//   count     the most lines that are returned: the best by length and contrast
-//   returns   lines in pixels of `image`, directed with the bright side on the left; none for an
+//   image     pixels as delivered; lines are straight only if the lens has no distortion
+//   count     largest number of lines: the best by length and contrast
+//   returns   lines in pixels of `image`, directed with the bright side on the left; empty for an
 //             empty image
 //   cost      about 5 ms for 752x480 with the default detector
 std::vector<LineFeature> FindLines(const GrayImage& image,

@@ -8,9 +8,8 @@
 
 namespace plumbline {
 
-// Finds the positions in a pixel window without looking at all of them, by an index over square
-// cells. Positions outside the image belong to the border cells and are still found by exact
-// distance.
+// An index of positions over square cells, for fast queries of pixel windows. Positions outside the
+// image belong to the border cells and are still found by exact distance.
 class PointGrid {
  public:
   PointGrid() = default;
@@ -35,7 +34,7 @@ class PointGrid {
   int CellY(double y) const;
 
   std::vector<Eigen::Vector2d> positions_;
-  std::vector<int> cell_begin_;  // first entry of each cell in items_, row by row; one past the end
+  std::vector<int> cell_begin_;  // first entry of each cell in items_, row by row, then the end
   // Indices into positions_, ordered by cell, ascending inside a cell.
   std::vector<int> items_;
   int cell_px_ = 32;

@@ -20,13 +20,12 @@ using LbdVector = std::array<float, static_cast<std::size_t>(8 * kLbdBands)>;
 // Line band descriptor (Zhang and Koch, JVCIR 2013): gradients of 9 bands of 7 pixels parallel to
 // the segment, in the frame (direction, normal) of the directed segment, summed over the rows of
 // pixels by sign, weighted by a local and a global Gaussian across the line. Departures from the
-// paper: rows are 2 pixels apart and have at most 96 samples; the border of the image is continued
-// outside it. `gradient` is that of the blurred image. A segment of zero length or outside the
-// image gives all zeros. Cost: 2 to 5 microseconds.
+// paper: rows are 2 pixels apart and have at most 96 samples; outside the image its border is
+// repeated. `gradient` is that of the blurred image. A segment of zero length or outside the image
+// gives all zeros. Cost: 2 to 5 microseconds.
 LbdVector ComputeLbdVector(const GradientImage& gradient, const Segment2& segment);
 
-// Returns 256 bits: for each of 32 pairs of bands, which of the two has the larger value in each of
-// the 8 numbers.
+// Returns 256 bits: for each of 32 pairs of bands, comparisons of their 8 numbers.
 Descriptor BinarizeLbd(const LbdVector& vector);
 
 // Sets the descriptors of lines.

@@ -8,29 +8,37 @@
 
 namespace plumbline {
 
-// Radial distortion of the lens that the calibration has left. A place px of the image, at d from
-// the principal point in halves of the image's width, belongs at px - border_px |d|^2 d. border_px
-// is thus the correction at the side of the image, in pixels.
+// Radial lens distortion left by the calibration. A pixel px of the image, at d from the principal
+// point in halves of the image's width, is corrected to px - border_px |d|^2 d. border_px is thus
+// the correction at the left and right border of the image, in pixels.
 class LensCorrection {
  public:
-  // The largest border_px that is plausible, in widths of the image.
+  // Largest plausible border_px, in widths of the image.
   static constexpr double kLargest = 0.03;
 
-  LensCorrection() = default;  // no distortion is left
+  LensCorrection() = default;  // no correction
   LensCorrection(const RectifiedCamera& camera, double border_px);
 
   double border_px() const { return border_px_; }
-  // Returns the displacement of what the image shows at a place: px is to be corrected to
-  // px - ShiftAt(px).
+  // Returns the displacement at a pixel: px is corrected to px - ShiftAt(px).
   Eigen::Vector2d ShiftAt(const Eigen::Vector2d& px) const;
   Eigen::Vector2d At(const Eigen::Vector2d& px) const { return px - ShiftAt(px); }
-  // Returns by how much the correction shrinks the surroundings of a place, in the mean over all
-  // directions.
+  // Returns the factor by which the correction shrinks the surroundings of a pixel, in the mean
+  // over all directions.
   double ScaleAt(const Eigen::Vector2d& px) const;
 
   bool operator==(const LensCorrection&) const = default;
-  // Whether it is a number, and not so large that it folds the image over.
+  // Returns true if it is finite and small enough not to fold the image over.
   bool IsPlausible() const;
+
+  // Calls visit for each coefficient of `correction`, const or not.
+  template <class Correction, class Visitor>
+  static void VisitNumbers(Correction& correction, const Visitor& visit) {
+    visit(correction.centre_.x());
+    visit(correction.centre_.y());
+    visit(correction.inverse_unit_);
+    visit(correction.border_px_);
+  }
 
  private:
   Eigen::Vector2d FromCentre(const Eigen::Vector2d& px) const {

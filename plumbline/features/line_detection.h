@@ -12,20 +12,20 @@
 
 namespace plumbline {
 
-// Blur before the gradient in which lines are found, placed and described [px].
+// Blur before the gradient for detecting, refining and describing lines [px].
 inline constexpr double kLineBlurPx = 1;
 
 struct LineDetectionOptions {
-  // Size of the image in which segments are looked for, relative to the image.
+  // Size of the image for detection, relative to the full image.
   double detection_scale = 1;
   // Least length of a segment, relative to the longer side of the image.
   double min_length = 0.035;
-  bool merge = true;  // whether collinear neighbours are joined
+  bool merge = true;  // true: collinear neighbours are joined
   double merge_angle_deg = 1.5;
   double merge_offset_px = 1.2;  // largest distance across the line
   // Largest gap between two pieces, relative to the shorter one.
   double merge_gap = 0.15;
-  // Whether segments are moved to the sub-pixel peak of the gradient.
+  // True: segments are moved to the sub-pixel peak of the gradient.
   bool refine = true;
   // Least mean gradient across the line, grey levels per pixel.
   double min_contrast = 3;
@@ -33,11 +33,11 @@ struct LineDetectionOptions {
   double min_sigma_px = 0.2;
 };
 
-// Finds straight edges of an image, directed with the bright side on the left (see LineFeature),
+// Detects straight edges of an image, directed with the bright side on the left (see LineFeature),
 // without descriptors: at most `count`, the best by length and contrast, spread over the image.
 //
-// Segments are found as raw_segments.h says. Collinear pieces of the same contrast sign are joined
-// over small gaps. Each segment is fitted again, robustly, to the sub-pixel maxima of the
+// Segments come from the detector (raw_segments.h). Collinear pieces of the same contrast sign are
+// joined over small gaps. Each segment is refitted robustly to the sub-pixel maxima of the
 // directional gradient across it. sigma_px is the deviation of an end point in that fit, but at
 // least min_sigma_px. Parts closer than 3 px to invalid pixels are cut off. `gradient` is that of
 // `image` after a blur by kLineBlurPx. Deterministic. Cost: about 3 ms for 752x480 with the drawing

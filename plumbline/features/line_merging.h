@@ -17,8 +17,7 @@ struct LineMergeLimits {
   double gap = 0.15;       // largest gap, relative to the shorter of the two
 };
 
-// Finds the lines of a set that lie on the same infinite line as another one. Lines are kept
-// ordered by angle, so that not all have to be looked at.
+// Finds collinear lines of a set. Lines are sorted by angle, so that a query visits only a few.
 class CollinearIndex {
  public:
   explicit CollinearIndex(const std::vector<LineFeature>& lines);
@@ -36,9 +35,9 @@ class CollinearIndex {
   std::vector<Entry> entries_;  // ordered by angle, then by line
 };
 
-// Returns the segment that covers both when b continues (or overlaps) a on the same straight edge.
-// Both must have the same direction, both ends of b must be close to the line of a, and the edge
-// must also be there in a gap between them.
+// Returns the segment that covers both if b continues (or overlaps) a on the same straight edge:
+// both have the same direction, both ends of b are close to the line of a, and the edge also exists
+// in a gap between them.
 std::optional<Segment2> Join(const GradientImage& gradient,
                              const LineFeature& a,
                              const LineFeature& b,

@@ -10,7 +10,7 @@
 namespace plumbline {
 
 // Returns the mean over the segment of the gradient's component along the image normal (-dy, dx) of
-// LineThrough, in grey levels per pixel. It is negative when the bright side is on the left.
+// LineThrough, in grey levels per pixel. Negative if the bright side is on the left.
 double MeanNormalGradient(const GradientImage& gradient, const Segment2& segment);
 
 struct RefinedSegment {
@@ -19,12 +19,12 @@ struct RefinedSegment {
   double sigma_px = 0;
 };
 
-// Moves the segment onto the edge that it follows. At up to 48 places the steepest descent of grey
-// level along the normal (-dy, dx) is found to sub-pixel by a parabola over the directional
-// gradient, and a line is fitted with Tukey weights. The end points keep their places along the
-// segment. The segment must be directed with the bright side on its left and lie within `range_px`
-// (1 to 7) of the edge. Returns nullopt when fewer than half of the places show an edge on one
-// line. Cost: about 2 microseconds.
+// Moves the segment onto its edge. At up to 48 positions the steepest descent of grey level along
+// the normal (-dy, dx) is found to sub-pixel by a parabola over the directional gradient, and a
+// line is fitted with Tukey weights. The end points keep their positions along the segment. The
+// segment must be directed with the bright side on its left and lie within `range_px` (1 to 7) of
+// the edge. Returns nullopt if fewer than half of the positions show an edge on one line. Cost:
+// about 2 microseconds.
 std::optional<RefinedSegment> RefineSegment(const GradientImage& gradient,
                                             const Segment2& segment,
                                             int range_px);

@@ -10,19 +10,19 @@
 
 namespace plumbline {
 
-// A line of one set and the line of the other set that counts as the same one.
+// A pair of matched lines of two sets.
 struct LineMatch {
   int a = -1;          // index into the first set
   int b = -1;          // index into the second set
-  int distance = 256;  // bits in which the two descriptors differ
+  int distance = 256;  // Hamming distance of the descriptors
 };
 
-// What two lines must have in common to be matched.
+// Conditions on two lines to be matched.
 struct LineMatchOptions {
   int max_distance = 80;  // largest Hamming distance, of 256 bits
   // Limit for the ratio of the best to the second best distance; 1: no test.
   double ratio = 0.9;
-  bool mutual = true;  // whether a must also be the best match of b
+  bool mutual = true;  // true: a must also be the best match of b
   // Largest difference of the directions (lines are directed: up to 180).
   double max_angle_deg = 20;
   // Largest distance of the midpoint of one line from the other line.
@@ -33,19 +33,21 @@ struct LineMatchOptions {
   double min_length_ratio = 0.3;
 };
 
-// Whether a and b may be the same line, by their places in two images from nearby viewpoints.
+// Returns true if a and b may be the same line, by their positions in two images from nearby
+// viewpoints.
 bool LinesCompatible(const Segment2& a, const Segment2& b, const LineMatchOptions& options);
 
-// Returns pairs of lines with similar descriptors and compatible places in two images, at most one
-// pair for each line. Ties go to the lower index; the result is ordered by `a`. Cost: O(|a| |b|).
+// Returns pairs of lines with similar descriptors and compatible positions in two images, at most
+// one pair for each line. Ties go to the lower index; the result is ordered by `a`. Cost: O(|a|
+// |b|).
 std::vector<LineMatch> MatchLines(const std::vector<LineFeature>& a,
                                   const std::vector<LineFeature>& b,
                                   const LineMatchOptions& options);
 
-// What the two lines of a rectified pair must have in common to be matched.
+// Conditions on two lines of a rectified pair to be matched.
 struct StereoLineOptions {
-  // Deviation that the calibration of the pair adds to every disparity, relative to the width of
-  // the image.
+  // Standard deviation of every disparity due to the calibration, relative to the width of the
+  // image.
   double calibration_sigma = 8e-4;
   int max_distance = 80;
   double ratio = 0.9;
@@ -53,18 +55,18 @@ struct StereoLineOptions {
   // Least common rows (columns for flat lines) / rows of the shorter line.
   double min_overlap = 0.5;
   double min_depth_m = 0.25;  // least depth, which gives the largest disparity
-  // Lines flatter than this against the rows are matched by their place across the rows.
+  // Lines flatter than this against the rows are matched by their position across the rows.
   double flat_angle_deg = 5;
   // Largest distance of flat lines across the rows.
   double max_row_error_px = 2;
 };
 
-// Returns for each left line of a rectified pair the same line in the right image, or nullopt.
+// Returns for each left line of a rectified pair its match in the right image, or nullopt.
 //
-// Both lines run the same way (bright side) and overlap in rows, and the disparities at both ends
-// of the common rows lie in [0, fx * baseline / min_depth_m]. The nearest descriptor wins, in both
-// directions. A line flatter than flat_angle_deg is matched by its place across the rows alone: its
-// RightLine constrains the line's plane, but LineEndDisparities gives nullopt for it.
+// Both lines have the same direction (bright side) and overlap in rows, and the disparities at both
+// ends of the common rows lie in [0, fx * baseline / min_depth_m]. The nearest descriptor wins, in
+// both directions. A line flatter than flat_angle_deg is matched by its position across the rows
+// alone: its RightLine constrains the line's plane, but LineEndDisparities gives nullopt for it.
 std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& camera,
                                                        const std::vector<LineFeature>& left,
                                                        const std::vector<LineFeature>& right,
@@ -75,10 +77,10 @@ struct LineEndDisparity {
   Disparity start, end;
 };
 
-// Returns the disparities of the end points of a left line: where the rows through them meet the
-// (infinite) right line. sigma_px is the noise of both lines across themselves, divided by the sine
-// of the angle between line and row. Returns nullopt when that angle is below `flat_angle_deg` or a
-// disparity is not positive.
+// Returns the disparities of the end points of a left line: the intersections of their rows with
+// the (infinite) right line. sigma_px is the noise of both lines across themselves, divided by the
+// sine of the angle between line and row. Returns nullopt if that angle is below `flat_angle_deg`
+// or a disparity is not positive.
 std::optional<LineEndDisparity> LineEndDisparities(
     const LineFeature& left,
     const RightLine& right,

@@ -39,12 +39,12 @@ std::vector<PointMatch> MatchPoints(const std::vector<PointFeature>& a,
                                     const PointMatchOptions& options);
 
 struct StereoPointOptions {
-  double min_depth_m = 0.25;  // least depth, which gives the largest disparity
+  double min_depth_m = 0.25;  // least depth, which determines the largest disparity
   // Half width of the correlation window at the finest level.
   int window_px = 5;
-  // Deviation that the pair's calibration adds to every disparity, relative to the width of the
-  // image: errors of angles and of the lens are the same part of an image of any size (8e-4 is 1 px
-  // of 1250).
+  // Standard deviation of every disparity due to the pair's calibration, relative to the width of
+  // the image: errors of angles and of the lens are the same fraction of an image of any size (8e-4
+  // is 1 px of 1250).
   double calibration_sigma = 8e-4;
 };
 
@@ -56,17 +56,16 @@ struct StereoPyramids {
   const ValidRegion& right_valid;
 };
 
-// Returns the disparity of each point of the left image of a rectified pair; nullopt where the
-// right image does not show the point for certain.
+// Returns the disparity of each point of the left image of a rectified pair; nullopt without a
+// reliable match in the right image.
 //
-// The point is searched along the whole row of the right image, on the level where it was found
-// (RowSearch). It need not be a corner in both images, which only every second one is. A
-// Gauss-Newton step finds the sub-pixel shift, with the mean brightness of the window free. Against
-// errors at depth edges, pixels of the window weigh less the further they are from the corner, and
-// windows of coarse levels are smaller. sigma_px comes from the curvature and the residual of that
-// correlation. Matches whose residual is far above the median are dropped. Disparities are 0 < d <=
-// fx * baseline / min_depth. A helper shares the levels; the result is the same with and without
-// one.
+// The point is searched along the whole row of the right image, on its pyramid level (RowSearch).
+// It need not be a corner in both images; only every second one is. A Gauss-Newton step finds the
+// sub-pixel shift, with the mean brightness of the window free. Against errors at depth edges,
+// pixels of the window weigh less the further they are from the corner, and windows of coarse
+// levels are smaller. sigma_px comes from the curvature and the residual of that correlation.
+// Matches whose residual is far above the median are dropped. Disparities are 0 < d <= fx *
+// baseline / min_depth. A helper shares the levels; the result is the same with and without it.
 std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& camera,
                                                         const std::vector<PointFeature>& points,
                                                         const StereoPyramids& pyramids,

@@ -14,40 +14,39 @@
 
 namespace plumbline {
 
-// Contrast from which on a corner is always found [grey levels]. Weaker corners are found only in
-// cells that have none of it.
+// Contrast above which corners are always found [grey levels]. Weaker ones are found only in cells
+// without such a corner.
 inline constexpr int kCornerContrast = 20;
 
 struct OrbOptions {
   double scale_factor = 1.2;
   // FAST threshold in cells without a corner of kCornerContrast, grey levels.
   int fast_min_threshold = 4;
-  double sigma_px = 0.2;  // deviation of a sharp corner at octave 0
-  // Deviation that noise adds to a corner with a contrast of one grey level; it falls as the
-  // contrast grows.
+  double sigma_px = 0.2;  // standard deviation of a sharp corner at octave 0
+  // Standard deviation added by noise to a corner with a contrast of one grey level; inversely
+  // proportional to the contrast.
   double noise_sigma_px = 6.7;
-  // Deviation that errors of the calibrated lens and of the shutter add to every corner, relative
-  // to the width of the image.
+  // Standard deviation of every corner due to errors of lens calibration and shutter, relative to
+  // the width of the image.
   double calibration_sigma = 5e-4;
 };
 
-// Finds corners with binary descriptors, spread evenly over the image and the levels of its
-// pyramid.
+// Finds corners with binary descriptors, spread evenly over the image and the pyramid levels.
 //
 // FAST corners (Rosten and Drummond 2006) are found on each level, with a lower threshold in cells
-// that have none. Each level keeps a share of `count` that falls with its width; corners are taken
-// in turns from a grid, so that no textured spot takes all. Orientation is by the intensity
+// without any. Each level keeps a share of `count` in proportion to its width; corners are taken in
+// turns from a grid, so that no textured region takes all. Orientation is by the intensity
 // centroid, the descriptor is the steered BRIEF pattern of ORB (Rublee et al., ICCV 2011), 256
 // bits. A corner moves to the peak of the Harris response (parabola, at most 1.5 level pixels).
-// This more than halves the scatter between frames: from 0.45 to 0.2 level pixels on EuRoC, where
-// the Förstner point gives 0.50.
+// This more than halves the scatter between frames: from 0.45 to 0.2 level pixels on EuRoC; the
+// Förstner point gives 0.50.
 //
-// The scatter grows as the contrast falls. Matched under true poses and depths, corners move by 0.1
+// The scatter grows with falling contrast. Matched under true poses and depths, corners move by 0.1
 // level pixels from frame to frame above 100 grey levels, by 0.15 at 40, by 0.3 at 17 and by 1
-// below 7, roughly hypot(0.1, 4 / contrast). The deviations are nearly in this proportion.
+// below 7, roughly hypot(0.1, 4 / contrast). The standard deviations are nearly in this proportion.
 //
 // `pyramid` must have been built with the factor of the options (BuildOrbPyramid). Corners closer
-// to an invalid pixel or to the border than the patch (20 level pixels) are left out. Positions and
+// to an invalid pixel or to the border than the patch (20 level pixels) are dropped. Positions and
 // sigmas (of corner and noise * scale of the octave, and of the calibration) are in pixels of the
 // full image. The result is ordered by octave, then as selected. Cost: about 4 ms for 752x480 and
 // 1000 points.
@@ -56,10 +55,9 @@ std::vector<PointFeature> ExtractOrb(const ImagePyramid& pyramid,
                                      int count,
                                      const OrbOptions& options);
 
-// Returns the descriptors that corners of this image would have at the places, octaves and
-// orientations of the given ones, which may come from another image: how much the two images are
-// alike there. nullopt where the pyramid has no such octave, or where a descriptor would look
-// beyond the border.
+// Returns the descriptors of this image at the positions, octaves and orientations of the given
+// corners, which may come from another image, to compare the two images there. nullopt if the
+// pyramid has no such octave, or if a descriptor would reach beyond the border.
 std::vector<std::optional<Descriptor>> DescribeOrbAt(const ImagePyramid& pyramid,
                                                      const std::vector<PointFeature>& corners);
 

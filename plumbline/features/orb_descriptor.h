@@ -16,15 +16,15 @@ struct OrientedPixel {
   double angle = 0;
 };
 
-inline constexpr int kOrbReach = 18;  // largest distance in pixels at which a descriptor looks
+inline constexpr int kOrbReach = 18;  // largest distance in pixels of a sample of the descriptor
 
 // Computes steered BRIEF descriptors (Rublee et al., ICCV 2011, section 4) of pixels at least
 // kOrbReach from the border: 256 comparisons of two grey levels around each, on the image smoothed
-// with 7 x 7 pixels and a deviation of 2.
+// over 7 x 7 pixels with a standard deviation of 2.
 //
-// The descriptors are those of cv::ORB except for bits that rounding decides. OpenCV smooths the
-// image in floating point, in another way on each kind of processor; here it is done in whole
-// numbers and gives the same bits on all. Cost: about 0.5 ms for 1000 corners and a megapixel.
+// The descriptors equal those of cv::ORB except for bits decided by rounding. OpenCV smooths the
+// image in floating point, differently on each kind of processor; here integers give the same bits
+// on all. Cost: about 0.5 ms for 1000 corners and a megapixel.
 std::vector<Descriptor> DescribeOrb(const GrayImage& image,
                                     const std::vector<OrientedPixel>& corners);
 

@@ -7,10 +7,9 @@
 
 namespace plumbline {
 
-// The 256 pairs of places that an ORB descriptor compares: x and y of the first and of the second
-// place, in pixels from an upright corner, within 18.4 of it. Rublee et al. (2011) learned them
-// from images, so that they vary much and are little correlated. The numbers are those of OpenCV
-// (Apache-2.0), whose descriptors these are.
+// The 256 pairs of samples that an ORB descriptor compares: x and y of the first and of the second
+// sample, in pixels from an upright corner, within 18.4 of it. Rublee et al. (2011) learned them
+// from images for high variance and low correlation. The numbers are those of OpenCV (Apache-2.0).
 inline constexpr std::array<std::int8_t, 1024> kOrbPattern = {
     8,   -3,  9,   5,   4,   2,   7,   -12, -11, 9,   -8,  2,   7,   -12, 12,  -13, 2,   -13, 2,
     12,  1,   -7,  1,   6,   -2,  -10, -2,  -4,  -13, -13, -11, -8,  -13, -3,  -12, -9,  10,  4,

@@ -22,17 +22,17 @@ constexpr auto EnumNames(std::type_identity<LineDetector>) {
 
 struct RawSegmentOptions {
   LineDetector detector = LineDetector::kDrawing;
-  // Size of the image in which edges are looked for, relative to `image`.
+  // Size of the image for detection, relative to `image`.
   double scale = 1;
   double min_length = 15;  // least length in pixels of `image`
   // Least mean gradient across the line, grey levels per pixel.
   double min_contrast = 3;
 };
 
-// Finds straight edges of an image as the detector gives them, in pixels of `image` and in any
-// direction. They are drawn (segment_drawing.h), or found by LSD (Grompone von Gioi et al., PAMI
-// 2010) or EDLines (Akinlar and Topal 2011), in the image itself or in a smaller one. `gradient` is
-// that of the image after a blur of about 1 px.
+// Detects straight edges of an image, unrefined, in pixels of `image` and in any direction: by
+// drawing (segment_drawing.h), LSD (Grompone von Gioi et al., PAMI 2010) or EDLines (Akinlar and
+// Topal 2011), in the image itself or in a smaller one. `gradient` is that of the image after a
+// blur of about 1 px.
 std::vector<Segment2> FindRawSegments(const GrayImage& image,
                                       const GradientImage& gradient,
                                       const RawSegmentOptions& options);

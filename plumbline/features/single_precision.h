@@ -8,9 +8,9 @@
 
 namespace plumbline {
 
-// Returns the nearest number with the 24 binary digits of single precision, for |value| < 1e290. It
-// uses Veltkamp's splitting (Dekker 1971) instead of a conversion to float and back, which GCC 12
-// leaves out where it takes two of them together (its -ftree-slp-vectorize).
+// Returns the nearest number with the 24 binary digits of single precision, for |value| < 1e290, by
+// Veltkamp's splitting (Dekker 1971). GCC 12 drops a conversion to float and back if it needs two
+// of them together (its -ftree-slp-vectorize).
 inline double InSinglePrecision(double value) {
   constexpr double kSplit = (1 << 29) + 1;
   const double high = kSplit * value;
@@ -21,9 +21,9 @@ inline Eigen::Vector2d InSinglePrecision(const Eigen::Vector2d& value) {
   return {InSinglePrecision(value.x()), InSinglePrecision(value.y())};
 }
 
-// Rounds everything that was measured in an image except the descriptors: positions, deviations,
-// angles, responses, disparities, right lines. The rounding steps are below 1e-4 px, far below what
-// can be measured, and map files keep the numbers exactly in four bytes.
+// Rounds all measurements of an image except the descriptors: positions, deviations, angles,
+// responses, disparities, right lines. The rounding steps are below 1e-4 px, far below the accuracy
+// of measurements, and map files store the numbers exactly in four bytes.
 void RoundToSinglePrecision(Features& features);
 
 }  // namespace plumbline

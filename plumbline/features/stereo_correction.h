@@ -9,20 +9,20 @@
 
 namespace plumbline {
 
-// How far the right image of a pair is displaced along its rows from where the calibration has it.
-// This is a smooth error of the rectification, which differs from place to place and does not
-// average out. It is a quadratic polynomial over the right image, in pixels:
+// Displacement of the right image of a pair along its rows relative to the calibration: a smooth
+// error of the rectification, which varies over the image and does not average out. It is a
+// quadratic polynomial over the right image, in pixels:
 //
 //   c(x, y) = k0 + k1 x + k2 y + k3 x^2 + k4 x y + k5 y^2
 //
-// with x, y from the principal point in halves of the image's width. A disparity measured as d is
+// with x, y from the principal point in halves of the image's width. A measured disparity d is
 // corrected to d - c. For RGB-D the right image is virtual, and c is an error of the depths.
 class StereoCorrection {
  public:
   StereoCorrection() = default;  // no displacement
   StereoCorrection(const RectifiedCamera& camera, const Vector6d& coefficients);
 
-  // Returns the terms that the coefficients multiply, at a place of the right image.
+  // Returns the monomials of the polynomial at a pixel of the right image.
   static Vector6d Terms(const RectifiedCamera& camera, const Eigen::Vector2d& px);
 
   double At(const Eigen::Vector2d& px) const;
@@ -30,7 +30,7 @@ class StereoCorrection {
   bool operator==(const StereoCorrection&) const = default;
   bool IsFinite() const;
 
-  // Calls visit for each number of which `correction`, const or not, is made.
+  // Calls visit for each coefficient of `correction`, const or not.
   template <class Correction, class Visitor>
   static void VisitNumbers(Correction& correction, const Visitor& visit) {
     visit(correction.centre_.x());

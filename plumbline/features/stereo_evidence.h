@@ -6,13 +6,13 @@
 
 namespace plumbline {
 
-// What the disparities of all keyframes so far say about the errors of a stereo pair: normal
-// equations of the coefficients of a StereoCorrection. The evidence is about the rig, not about a
-// map, and evidence of different keyframes can be added.
+// Evidence of all keyframes so far about the errors of a stereo pair: normal equations of the
+// coefficients of a StereoCorrection. It depends on the rig, not on a map, and evidence of
+// different keyframes can be summed.
 struct StereoEvidence {
   Matrix6d information = Matrix6d::Zero();
   Vector6d weighted = Vector6d::Zero();
-  // Second moments of the terms over all evidence, with scales as they are.
+  // Second moments of the terms over all evidence, unscaled.
   Matrix6d moments = Matrix6d::Zero();
 };
 

@@ -13,24 +13,24 @@
 
 namespace plumbline {
 
-// Looks at some of the first frames of a stereo sequence and finds out whether the images fit the
-// calibration, or fit it far better when they are taken for something else (FindStereoPairFault).
-// It matches ORB points of the images as delivered.
+// Checks some of the first frames of a stereo sequence: the images must fit the calibration, and
+// not fit it far better under another interpretation (FindStereoPairFault). Matches ORB points of
+// the images as delivered.
 //
 // Deterministic, not thread-safe. Cost: two images for each sample, at some 4 ms (752x480), and two
 // or three more for samples that fit badly.
 class StereoPairCheck {
  public:
-  // Keeps a reference to the rectifier. Without a right camera nothing is ever found.
+  // Keeps a reference to the rectifier. Without a right camera no fault is ever found.
   explicit StereoPairCheck(const Rectifier& rectifier) : rectifier_(rectifier) {}
 
-  // Whether Add makes use of the frame at this position of the sequence: the samples at 1, 6, 11,
+  // Returns true if Add uses the frame at this position of the sequence: the samples at 1, 6, 11,
   // 16, 21, 60 and 180, and the frames before and after them.
   static bool LooksAt(std::size_t position);
 
-  // Takes a frame as delivered. Frames come by rising position; some may be missing. A frame that
-  // LooksAt does not want, that has no right image or another size than the calibration says, and
-  // any frame after a fault was found, does nothing. Returns the fault where this frame shows one.
+  // Adds a frame as delivered, by ascending position; some may be missing. Ignores a frame that
+  // LooksAt rejects, without right image or of another size than calibrated, and any frame after a
+  // fault was found. Returns the fault if this frame reveals one.
   std::optional<StereoPairFault> Add(std::size_t position, const SensorFrame& frame);
 
  private:
@@ -42,9 +42,9 @@ class StereoPairCheck {
   std::vector<StereoPairSample> samples_;
   std::vector<PointFeature> left_;  // points of the last sample's left image
   bool waits_ = false;              // the last sample waits for the next frame
-  bool fits_badly_ = false;         // and needs its right image
+  bool fits_badly_ = false;         // and it needs its right image
   std::optional<GrayImage> right_before_;
-  std::size_t position_before_ = 0;  // of the frame that it belongs to
+  std::size_t position_before_ = 0;  // position of its frame
   bool done_ = false;
 };
 

@@ -18,12 +18,12 @@ namespace plumbline {
 // A 256-bit binary descriptor: ORB for points, LBD for lines.
 using Descriptor = std::array<std::uint64_t, 4>;
 
-// Returns the number of bits in which two descriptors differ, 0 to 256.
+// Returns the number of differing bits of two descriptors, 0 to 256.
 inline int HammingDistance(const Descriptor& a, const Descriptor& b) {
   return CountBits(Descriptor{a[0] ^ b[0], a[1] ^ b[1], a[2] ^ b[2], a[3] ^ b[3]});
 }
 
-// A corner in the rectified image. Its position is in pixels of the full-size image in every
+// A corner in the rectified image. Its position is in pixels of the full-size image for every
 // octave.
 struct PointFeature {
   Eigen::Vector2d px = Eigen::Vector2d::Zero();
@@ -34,9 +34,9 @@ struct PointFeature {
   Descriptor descriptor{};
 };
 
-// A straight edge in the rectified image. It is directed so that the brighter side is on its left
-// as one sees the image: above it where it runs to the right, to the right of it where it runs
-// down. A physical edge keeps this direction from image to image.
+// A straight edge in the rectified image, directed so that the brighter side is on its left in the
+// displayed image: above an edge that runs to the right, to the right of one that runs down. A
+// physical edge keeps this direction from image to image.
 struct LineFeature {
   Segment2 segment;
   double sigma_px = 1;  // standard deviation of each end point across the line
@@ -45,14 +45,13 @@ struct LineFeature {
   Descriptor descriptor{};
 };
 
-// A line in the right image (real, or virtual from a depth image), directed as the left line that
-// it belongs to.
+// A line in the right image (real, or virtual from a depth image), directed like its left line.
 struct RightLine {
   Segment2 segment;
   double sigma_px = 1;  // standard deviation of each end point across the line
 };
 
-// Everything measured in one rectified frame. The vectors of one kind have equal length.
+// All measurements of one rectified frame. The vectors of one kind have equal length.
 struct Features {
   std::vector<PointFeature> points;
   std::vector<std::optional<Disparity>> point_disparity;

@@ -8,16 +8,16 @@
 
 namespace plumbline {
 
-// Where an image has real pixels: rectification leaves borders that the camera did not see. It is
-// built once per camera from a mask, then asked for many positions in constant time.
+// Region of real pixels of an image: rectification leaves borders that the camera did not see.
+// Built once per camera from a mask, then queried for many positions in constant time.
 class ValidRegion {
  public:
-  // Every pixel of an image of this size is valid, so that only the image border limits.
+  // Every pixel of an image of this size is valid: only the image border limits.
   ValidRegion(int width, int height) : width_(width), height_(height) {}
   // Pixels of `mask` that are 0 are invalid. Cost: a few passes over the image.
   explicit ValidRegion(const GrayImage& mask);
 
-  // Whether the square of half-width `radius` around the pixel has only valid pixels.
+  // Returns true if the square of half-width `radius` around the pixel has only valid pixels.
   bool Contains(const Eigen::Vector2d& px, double radius) const;
 
   int width() const { return width_; }
