@@ -10,9 +10,9 @@
 
 namespace plumbline {
 
-// Half of the bits of a descriptor: those that tell places apart best, beginning with the highest
-// bit of the first word. The first bits are also hardly correlated, so that they divide features
-// evenly. Which bits these are was measured once (docs/methods/places.md).
+// Half of the bits of a descriptor: the most distinctive ones, beginning with the highest bit of
+// the first word. The first bits are also hardly correlated, so that they divide features evenly.
+// The selection was measured once (docs/methods/places.md).
 using Signature = std::array<std::uint32_t, 4>;
 inline constexpr int kSignatureBits = 128;
 
@@ -27,7 +27,7 @@ inline bool BitOf(const Signature& signature, int index) {
   return (signature[bit / 32] >> (31 - bit % 32) & 1U) != 0;
 }
 
-// Returns how many bits differ.
+// Returns the number of differing bits.
 inline int HammingDistance(const Signature& a, const Signature& b) {
   const auto pair = [](std::uint32_t high, std::uint32_t low) {
     return std::uint64_t{high} << 32U | low;

@@ -12,7 +12,8 @@
 
 namespace plumbline {
 
-// Names a feature of a keyframe in an index, by the keyframe's slot and the feature's index in it.
+// Identifies a feature of a keyframe in an index, by the keyframe's slot and the feature's index in
+// it.
 struct FeatureName {
   static constexpr std::uint32_t kFeatureBits = 9;
   static constexpr std::uint32_t kMaxFeatures = 1U << kFeatureBits;
@@ -29,32 +30,32 @@ struct FeatureName {
   friend auto operator<=>(FeatureName, FeatureName) = default;
 };
 
-// Signatures by slot. Each slot has room for the same number of them, so that the address of a
-// signature follows from its name: a query spends most of its time on waiting for signatures.
+// Signatures by slot. Each slot has the same capacity, so that the address of a signature follows
+// from its name: a query spends most of its time on waiting for signatures.
 class SignatureTable {
  public:
-  // `room` is the most signatures that a slot can have, and at most FeatureName::kMaxFeatures.
+  // `room` is the capacity of a slot, at most FeatureName::kMaxFeatures.
   explicit SignatureTable(std::size_t room);
 
-  // Throws BugError for more signatures than there is room or there are names for.
+  // Throws BugError for more signatures than the capacity or the number of names.
   void Set(std::uint32_t slot, std::span<const Signature> signatures);
 
   std::span<const Signature> Of(std::uint32_t slot) const {
     return {blocks_[slot / kBlock].get() + slot % kBlock * room_, counts_[slot]};
   }
-  // Returns how many signatures a slot has.
+  // Returns the number of signatures of a slot.
   std::size_t Count(std::uint32_t slot) const { return counts_[slot]; }
   const Signature& operator[](FeatureName name) const {
     return blocks_[name.slot() / kBlock][name.slot() % kBlock * room_ + name.feature()];
   }
-  // Reads the signatures of these features. They lie far apart in memory. Without a decision
-  // between two of them the processor fetches several at once.
+  // Reads the signatures of these features, which lie far apart in memory. Without branches between
+  // reads the processor fetches several at once.
   void Read(std::span<const FeatureName> names, std::vector<Signature>* signatures) const {
     signatures->resize(names.size());
     for (std::size_t i = 0; i < names.size(); ++i) (*signatures)[i] = (*this)[names[i]];
   }
 
-  // Returns the memory in bytes, reserves included.
+  // Returns the memory in bytes, including reserves.
   std::size_t Memory() const;
 
  private:
