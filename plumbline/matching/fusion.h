@@ -11,20 +11,19 @@
 
 namespace plumbline {
 
-// Looks for landmarks of other keyframes in keyframe `to`. A feature without landmark becomes a new
-// observation. Where the feature shows another landmark already, the two are one and are merged;
-// the one with more observations stays. All this happens only where the landmark's reprojection
-// agrees with the feature.
+// Searches keyframe `to` for landmarks of other keyframes. A feature without landmark becomes a new
+// observation. If the feature already shows another landmark, the two are merged; the one with more
+// observations stays. Both require that the landmark's reprojection agrees with the feature.
 //
-// The feature that looks like a landmark is remembered for the next keyframe that shows the
-// landmark, since neighbours show the same. Meanwhile the keyframe may not move, nor landmarks move
-// or change their descriptors; they may be merged. The map must outlive this object.
+// The matched feature of a landmark is cached for the next keyframe that shows the landmark, since
+// neighbours share landmarks. Meanwhile the keyframe must not move, nor landmarks move or change
+// their descriptors; they may be merged. The map must outlive this object.
 class FusionInto {
  public:
   FusionInto(const Map& map, const CameraAndPyramid& imaging, KeyFrameId to);
 
-  // Fuses with the landmarks that keyframe `from` shows in the map as it is now. O(landmarks that
-  // are not remembered, each with the features around its place or all lines).
+  // Fuses with the landmarks that keyframe `from` shows in the current map. O(landmarks not cached,
+  // each with the features around its projection or all lines).
   MapEdit Fuse(KeyFrameId from);
 
  private:
@@ -41,7 +40,7 @@ class FusionInto {
   const Frame* target_;  // features of to_ in the map, valid during a call
   PointChooser point_chooser_;
   LineChooser line_chooser_;
-  const std::vector<bool> no_point_, no_line_;  // no feature counts as taken
+  const std::vector<bool> no_point_, no_line_;  // all false: no feature counts as taken
   std::unordered_map<PointId, std::optional<FeatureChoice>> chosen_by_point_;
   std::unordered_map<LineId, std::optional<FeatureChoice>> chosen_by_line_;
 };

@@ -13,28 +13,28 @@
 
 namespace plumbline {
 
-// Returns what line feature i of a frame says about a line in the world: J^T Sigma^-1 J over the
-// residuals of its left and right measurement, for the orthonormal tangent of `line`. The pose
-// counts as exact.
+// Returns the information of line feature i of a frame about a line in the world: J^T Sigma^-1 J
+// over the residuals of its left and right measurement, for the orthonormal tangent of `line`. The
+// pose counts as exact.
 Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
                                 const Frame& frame,
                                 std::size_t i,
                                 const PluckerLine& line);
-// Returns the information for a line that is prepared for many features.
+// Returns the information for a line prepared for many features.
 Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
                                 const Frame& frame,
                                 std::size_t i,
                                 const PreparedLine& line);
 
-// Returns the derivative by the orthonormal tangent of the place of the line at parameter t
-// (PluckerLine::PointAt), as far as this place moves across the line.
+// Returns the derivative with respect to the orthonormal tangent of the point of the line at
+// parameter t (PluckerLine::PointAt), restricted to its motion across the line.
 Eigen::Matrix<double, 3, 4> ShiftJacobian(const PluckerLine& line,
                                           const OrthonormalLine& orthonormal,
                                           double t);
 
-// Returns the standard deviation, in the map's unit, of the line's place at parameter t
-// (PluckerLine::PointAt) in the worst direction across the line. Infinite when the information
-// leaves that direction open.
+// Returns the standard deviation, in the map's scale, of the line's position at parameter t
+// (PluckerLine::PointAt) in the worst direction across the line. Infinite if the information leaves
+// that direction undetermined.
 double SigmaAt(const PluckerLine& line, const Eigen::Matrix4d& information, double t);
 
 }  // namespace plumbline

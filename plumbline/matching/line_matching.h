@@ -11,10 +11,10 @@
 
 namespace plumbline {
 
-// Returns what the lines of two images must have in common to be matched by appearance
-// (MatchLines). The rules of the first paper, section 4, are among it where `lines` asks for them.
+// Returns the conditions for matching lines of two images by descriptors (MatchLines), including
+// the rules of the first paper, section 4, if `lines` asks for them.
 //
-//   b_from_a  rotation between the two cameras, where it is known; the rotation gate uses its angle
+//   b_from_a  rotation between the two cameras, if known; the rotation gate uses its angle
 LineMatchOptions LineMatchingOf(const LineOptions& lines,
                                 const std::optional<Eigen::Quaterniond>& b_from_a = std::nullopt);
 

@@ -17,12 +17,12 @@
 
 namespace plumbline {
 
-// The parameters of a line in bundle adjustment.
+// Parametrization of a line in bundle adjustment.
 enum class LineParametrization {
   kPlucker,  // orthonormal form of the Plücker coordinates, 4 parameters
   // Orthonormal form turned about the axes of the frame: U <- Exp(theta) U, as PPL-SLAM does.
   kPluckerLeft,
-  // Two points, 6 parameters; two of these are held, because no image fixes them.
+  // Two points, 6 parameters; two of these are fixed, because no image determines them.
   kEndpoints,
 };
 
@@ -45,7 +45,7 @@ constexpr auto EnumNames(std::type_identity<LineResidualKind>) {
                     std::pair{LineResidualKind::kProjectedEnds, "projected_ends"}};
 }
 
-// The views from which a line is made where several keyframes show it.
+// Views used to triangulate a line of several keyframes.
 enum class LineReconstruction {
   kNView,
   kCheckedNView,  // with the tests of the first paper (CheckedLineFromViews)
@@ -58,63 +58,62 @@ constexpr auto EnumNames(std::type_identity<LineReconstruction>) {
                     std::pair{LineReconstruction::kTwoView, "two_view"}};
 }
 
-// Adds to the covariance of a match what the uncertainty of its line contributes
-// (AddLandmarkUncertainty).
+// Adds the uncertainty of a match's line to the covariance of the match (AddLandmarkUncertainty).
 void WeighLineMatch(const PoseProblem& problem,
                     const LineModel& line,
                     const LineWeights& weights,
                     PoseProblem::LineMatch& match);
-// Returns the squared norm of the whitened residual of a match (eq. 13) at a pose; infinite where
-// the match has none.
+// Returns the squared norm of the whitened residual of a match (eq. 13) at a pose; infinite if the
+// residual is not defined.
 double LineMatchChi2(const RectifiedCamera& camera,
                      const Rigid3& cam_from_world,
                      const PoseProblem::LineMatch& match);
-// Moves the ends of the measured segment to where they show a piece of the line, but not beyond the
-// segment. `piece` is in the frame of the camera that measured.
+// Moves the ends of the measured segment to the projection of a piece of the line, but not beyond
+// the segment. `piece` is in the frame of the measuring camera.
 void MeasurePiece(const RectifiedCamera& camera,
                   const Segment3& piece,
                   PoseProblem::LineMatch& match);
 
-// How lines are made, adjusted and compared with images, which System does by
-// SlamOptions::lines.method. Each member defaults to what the product does. Only here does the
-// laboratory put functions of its own (lab/line_rivals); the rest of the product knows no other
-// kind of line. The functions have no state and are called in any thread.
+// Functions for creating, adjusting and projecting lines, by SlamOptions::lines.method. Each member
+// defaults to the product's function. Only the laboratory sets others (lab/line_rivals); the rest
+// of the product knows no other kind of line. The functions have no state and are called in any
+// thread.
 struct LineMethod {
-  // The values of the options of these names for which this is the method (CheckOptions).
+  // Values of the options of these names to which this method belongs (CheckOptions).
   LineParametrization parametrization = LineParametrization::kPlucker;
   LineResidualKind residual = LineResidualKind::kObservedEnds;
   LineReconstruction reconstruction = LineReconstruction::kNView;
 
-  // Makes a line from all the keyframes that seem to show it, two or more. Where more than two give
-  // no line, it is called with pairs of them.
+  // Makes a line from all keyframes that seem to show it, two or more. If more than two give no
+  // line, it is called with pairs of them.
   std::optional<MapLine> (*line_from_views)(const Map& map,
                                             const RectifiedCamera& camera,
                                             const std::vector<LineViewOf>& views) = LineFromViews;
 
-  // Completes the window of a keyframe before its adjustment; null where nothing is to be done. The
-  // lines are free to move, and measurements have the covariance of their ends.
+  // Completes the window of a keyframe before its adjustment; may be null. The lines are free to
+  // move, and measurements have the covariance of their ends.
   void (*complete_window)(const LineWeights& weights, BaProblem& window) = nullptr;
-  // The functions that adjust a window and a whole map.
+  // Bundle adjustment of a window and of a whole map.
   BaSolver adjust_window = SolveLocalBa;
   BaSolver adjust_map = SolveLocalBa;
 
   // Completes a match with a line of the map before poses are estimated from it, at
-  // problem.cam_from_world. This sets the covariance, which is that of the measured ends before,
-  // and `ends` where they are of use.
+  // problem.cam_from_world: sets the covariance, initially that of the measured ends, and `ends` if
+  // needed.
   void (*weigh_match)(const PoseProblem& problem,
                       const LineModel& line,
                       const LineWeights& weights,
                       PoseProblem::LineMatch& match) = WeighLineMatch;
-  // Finds the pose of a frame from complete matches.
+  // Estimates the pose of a frame from complete matches.
   PoseOnlyResult (*solve_pose)(const PoseProblem& problem,
                                const PoseOnlyOptions& options) = SolvePose;
-  // Returns the squared norm of the whitened residual of a complete match; infinite where it has
-  // none.
+  // Returns the squared norm of the whitened residual of a complete match; infinite if the residual
+  // is not defined.
   double (*match_chi2)(const RectifiedCamera& camera,
                        const Rigid3& cam_from_world,
                        const PoseProblem::LineMatch& match) = LineMatchChi2;
-  // Turns a match whose `ends` are those of a piece of its line into a match of that piece; null
-  // where nothing is to be done. `piece` is in the frame of the camera that measured.
+  // Restricts a match whose `ends` are those of a piece of its line to that piece; may be null.
+  // `piece` is in the frame of the measuring camera.
   void (*measure_piece)(const RectifiedCamera& camera,
                         const Segment3& piece,
                         PoseProblem::LineMatch& match) = MeasurePiece;

@@ -8,7 +8,7 @@
 
 namespace plumbline {
 
-// How lines are made from several views, and how they enter all optimization.
+// Settings of the triangulation of lines and of their weights in all optimization.
 struct LineOptions {
   LineParametrization parametrization = LineParametrization::kPlucker;
   LineResidualKind residual = LineResidualKind::kObservedEnds;
@@ -17,8 +17,8 @@ struct LineOptions {
   double constant_sigma_px = 1;
   double min_length_ratio = 0.3;
   bool rotation_gate = false;
-  // The functions behind the options; not an option itself. They have to fit parametrization,
-  // residual and reconstruction (CheckOptions).
+  // Functions behind the options; not an option itself. They must fit parametrization, residual and
+  // reconstruction (CheckOptions).
   LineMethod method = {};
 
   LineWeights weights() const { return {weighting, constant_sigma_px}; }

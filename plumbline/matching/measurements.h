@@ -31,7 +31,7 @@ struct LineWeights {
   LineWeighting kind = LineWeighting::kCovariance;
   double constant_sigma_px = 1;  // deviation of each end point with weighting none
 
-  // Converts from a weighting alone, too. NOLINTNEXTLINE(google-explicit-constructor)
+  // Also converts from a weighting alone. NOLINTNEXTLINE(google-explicit-constructor)
   LineWeights(LineWeighting of_kind, double sigma_px = 1)
       : kind(of_kind), constant_sigma_px(sigma_px) {}
 };
@@ -48,9 +48,9 @@ std::optional<LineMeasurement> MeasureRightLine(const Features& features,
                                                 std::size_t i,
                                                 const LineWeights& weights);
 
-// Adds to the covariance of a measurement what the uncertainty of the 3D line contributes: Sigma +
-// J Lambda^-1 J^T, with Lambda the information of the line's orthonormal tangent and J the
-// derivative of the two residuals by it at the given pose. For scalar weighting the mean of the two
+// Adds the uncertainty of the 3D line to the covariance of a measurement: Sigma + J Lambda^-1 J^T,
+// with Lambda the information of the line's orthonormal tangent and J the derivative of the two
+// residuals with respect to it at the given pose. For scalar weighting the mean of the two
 // variances replaces both; for none nothing changes. A singular Lambda is regularized: directions
 // without information get the standard deviation of RegularizedInformation.
 void AddLandmarkUncertainty(const RectifiedCamera& camera,
@@ -60,7 +60,7 @@ void AddLandmarkUncertainty(const RectifiedCamera& camera,
                             const LineWeights& weights,
                             LineMeasurement& measurement);
 
-// Adds the uncertainty of a line that was prepared for many measurements.
+// Adds the uncertainty of a line prepared for many measurements.
 void AddLandmarkUncertainty(const RectifiedCamera& camera,
                             const Rigid3& cam_from_world,
                             const UncertainLine& line,

@@ -13,8 +13,8 @@
 
 namespace plumbline {
 
-// How far from its predicted place a feature may be, and how unlike the landmark. The defaults are
-// tracking's, for a pose that is nearly right.
+// Search window and descriptor limits around the projection of a landmark. The defaults are
+// tracking's, for a nearly correct pose.
 struct ProjectionSearchOptions {
   double point_radius_px = 4;   // at octave 0; grows with the octave
   int point_max_distance = 80;  // Hamming, of 256 bits
@@ -30,7 +30,7 @@ struct CameraAndPyramid {
   double octave_scale = 1.2;
 };
 
-// A point landmark as it should appear in an image.
+// Predicted appearance of a point landmark in an image.
 struct ProjectedPoint {
   Eigen::Vector2d px = Eigen::Vector2d::Zero();
   double disparity = 0;
@@ -39,14 +39,14 @@ struct ProjectedPoint {
   Descriptor descriptor{};
 };
 
-// A line landmark as it should appear in an image: the visible part of its interval.
+// Predicted appearance of a line landmark in an image: the visible part of its interval.
 struct ProjectedLine {
   Segment2 segment;
   Descriptor descriptor{};
 };
 
-// Returns where a landmark should appear. Returns nullopt when it is behind the camera, outside the
-// image, or seen from too different a side, and for a line of which too little is visible.
+// Returns the projection of a landmark. Returns nullopt if it is behind the camera, outside the
+// image, or seen from too different a direction, and for a line of which too little is visible.
 std::optional<ProjectedPoint> ProjectPoint(const CameraAndPyramid& imaging,
                                            const Rigid3& cam_from_world,
                                            const PointModel& point);
@@ -58,21 +58,20 @@ std::optional<ProjectedLine> ProjectLine(const CameraAndPyramid& imaging,
 // and inside the image.
 std::optional<Segment2> ProjectSegment(const RectifiedCamera& camera, const Segment3& in_camera);
 
-// The feature near the place of a landmark that looks most like it, and how unlike it still is
-// (Hamming distance).
+// The best matching feature near the projection of a landmark, with its Hamming distance.
 struct FeatureChoice {
   int feature = 0;
   int distance = 0;
 };
 
-// Chooses features of one image for points. Keeps the memory that it allocates. The image must
+// Finds the features of one image that match projected points. Reuses its memory. The image must
 // outlive it.
 class PointChooser {
  public:
   PointChooser(const FrameFeatures& image, const ProjectionSearchOptions& options)
       : image_(image), options_(options) {}
 
-  // Returns the choice among features with taken[i] false; nullopt where none is near and alike
+  // Returns the best match among features with taken[i] false; nullopt if none is near and similar
   // enough.
   std::optional<FeatureChoice> Choose(const ProjectedPoint& landmark,
                                       const std::vector<bool>& taken);
@@ -83,9 +82,9 @@ class PointChooser {
   std::vector<int> near_;
 };
 
-// Chooses features of one image for lines. They must be near and parallel to the prediction,
-// overlap it and have its direction. Looks at all lines of the image, whose directions it computes
-// once.
+// Finds the features of one image that match projected lines: near and parallel to the prediction,
+// overlapping it, with the same direction. Visits all lines of the image, whose directions it
+// computes once.
 class LineChooser {
  public:
   LineChooser(const FrameFeatures& image, const ProjectionSearchOptions& options);
@@ -109,22 +108,22 @@ struct LandmarkMatch {
   int feature = 0;
 };
 
-// Gives a feature that several landmarks chose to the most similar one (ties: the lower index). The
-// result is ordered by landmark.
+// Assigns a feature chosen by several landmarks to the most similar one (ties: the lower index).
+// The result is ordered by landmark.
 std::vector<LandmarkMatch> OneToOne(const std::vector<std::optional<FeatureChoice>>& choices,
                                     std::size_t feature_count);
 
-// Matches each projected point with the most similar feature near it, one to one: a feature that
-// two landmarks want goes to the more similar one (ties: the lower index). Features with taken[i]
-// and nullopt entries are left out. The result is ordered by landmark.
+// Matches each projected point with the most similar feature near it, one to one: a feature chosen
+// by two landmarks goes to the more similar one (ties: the lower index). Features with taken[i] and
+// nullopt entries are skipped. The result is ordered by landmark.
 std::vector<LandmarkMatch> MatchProjectedPoints(
     const FrameFeatures& image,
     const std::vector<std::optional<ProjectedPoint>>& landmarks,
     const std::vector<bool>& taken,
     const ProjectionSearchOptions& options);
 
-// Matches each projected line with the most similar feature near it, one to one, as
-// MatchProjectedPoints does with points.
+// Matches each projected line with the most similar feature near it, one to one (see
+// MatchProjectedPoints).
 std::vector<LandmarkMatch> MatchProjectedLines(
     const FrameFeatures& image,
     const std::vector<std::optional<ProjectedLine>>& landmarks,

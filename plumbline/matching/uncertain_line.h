@@ -10,8 +10,8 @@
 
 namespace plumbline {
 
-// Returns the information with a standard deviation of 0.5 rad added for every direction of the
-// tangent. It holds the directions that the information leaves open.
+// Returns the information with an added prior of standard deviation 0.5 rad for every direction of
+// the tangent, which regularizes directions without information.
 Eigen::Matrix4d RegularizedInformation(const Eigen::Matrix4d& information);
 
 // A line in the world and its uncertainty, prepared for many measurements.
