@@ -8,8 +8,8 @@
 
 namespace plumbline {
 
-// Recomputes from its observations what a landmark looks like. The descriptor is the one with the
-// least median Hamming distance to the others (ties: the oldest keyframe's), the viewing direction
+// Recomputes the appearance of a landmark from its observations. The descriptor is the one with the
+// least median Hamming distance to the others (ties: the oldest keyframe's); the viewing direction
 // is the mean. Points also get distance and octave of the newest observation, from which the octave
 // at any other distance follows. Only the newest 12 observations count. Cost: O(n^2) in their
 // number.

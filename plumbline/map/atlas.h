@@ -17,35 +17,47 @@ class Atlas {
  public:
   const std::map<MapId, Map>& maps() const { return maps_; }
   bool empty() const { return maps_.empty(); }
-  // Returns nullptr where there is no such map.
+  // Returns nullptr if the atlas has no map of this id.
   const Map* Find(MapId id) const;
   Map* Find(MapId id);
 
-  // The map that grows. Before the first map its id is invalid, and asking for the map throws
-  // BugError.
+  // The active map. Before the first map its id is invalid, and access to the map throws BugError.
   MapId active_id() const { return active_; }
   const Map& active() const;
   Map& active();
 
-  // Opens an empty map and makes it the active one.
+  // Creates an empty map and makes it the active one.
   Map& Start();
-  // Makes a map of the atlas the active one (BugError where there is none of this id).
+  // Makes a map of the atlas the active one. Throws BugError for an unknown id.
   Map& Activate(MapId id);
-  // Adds a map as it is, under its own id, without making it active, for instance a saved one. The
-  // atlas must have no map of this id (BugError).
+  // Adds an existing map, for instance a saved one, under its own id, without activating it. Throws
+  // BugError if the atlas has a map of this id.
   void Adopt(Map map);
 
-  // Makes one map of two (Map::Absorb). `kept` takes in `gone`, which leaves the atlas, and becomes
-  // the active map if `gone` was. Throws BugError where one of them is missing, or `kept` is not
-  // the older one. Where anything is thrown, both are as they were.
+  // Merges two maps into one (Map::Absorb). `gone` is absorbed by `kept` and leaves the atlas;
+  // `kept` becomes the active map if `gone` was. Throws BugError if one of them is missing or
+  // `kept` is not the older one. If it throws, both are unchanged.
   Map& Join(MapId kept, MapId gone, const Similarity3& kept_from_gone);
-  // Returns the map that `id` is part of today: itself, or the map that took it in.
+  // Returns the map that contains `id` now: itself, or the map that absorbed it.
   MapId Current(MapId id) const;
-  // The maps that were taken in, each with the map that took it in.
+  // Absorbed maps, each with the map that absorbed it.
   const std::map<MapId, MapId>& joined() const { return joined_; }
 
-  // Returns the id that the next map gets.
-  MapId NextMapId() const { return next_map_; }
+  // State beside the present maps: the absorbed maps, and the id of the next map. A restored atlas
+  // needs it to continue like the original.
+  struct History {
+    std::map<MapId, MapId> joined;
+    MapId next_map{0};
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.joined, self.next_map);
+    }
+  };
+  History history() const { return {joined_, next_map_}; }
+  // Throws BugError if a map was absorbed by one that the atlas does not have.
+  void SetHistory(const History& history);
+
   // Returns the first id that no keyframe of any map has had.
   KeyFrameId NextKeyFrameId() const;
 

@@ -77,7 +77,7 @@ void TransferPlace(Archive& archive, T& frame) {
   TransferAll(archive, frame.id, frame.stamp_ns, frame.cam_from_world);
 }
 
-// Transfers a keyframe of a map without its features and matches. The matches follow from the
+// Transfers a keyframe of a map without its features and matches; the matches follow from the
 // observations of the landmarks.
 template <class Archive, Like<KeyFrame> T>
 void TransferPlace(Archive& archive, T& k) {
@@ -85,7 +85,7 @@ void TransferPlace(Archive& archive, T& k) {
   TransferPlace(archive, k.frame);
 }
 
-// A list of pointers to the landmarks that are to be written or filled in.
+// Pointers to the landmarks to be written or filled in.
 template <class Landmark>
 using LandmarkList = std::vector<Landmark*>;
 
@@ -99,7 +99,7 @@ void TransferVectors(Archive& archive, Items& items, const Get& get) {
 }
 
 // Transfers observations: first their number for each landmark, then the keyframes, each as the
-// difference to the one before (the first: to the keyframe that made the landmark), then the
+// difference to the one before (the first: to the keyframe that created the landmark), then the
 // features.
 template <class Archive, class Landmark>
 void TransferObservations(Archive& archive, LandmarkList<Landmark>& landmarks) {
@@ -145,10 +145,9 @@ void TransferObservations(Archive& archive, LandmarkList<Landmark>& landmarks) {
   }
 }
 
-// Transfers the descriptors of landmarks. Most often the descriptor is that of one of the features
-// that show the landmark; then the index of that observation is kept instead.
-// `descriptor_of(keyframe, feature)` returns the descriptor of a feature, null where there is no
-// such feature.
+// Transfers the descriptors of landmarks. A descriptor that equals that of an observed feature, the
+// usual case, is stored as the index of that observation. `descriptor_of(keyframe, feature)`
+// returns the descriptor of a feature, null for an unknown feature.
 template <class Archive, class Landmark, class DescriptorOf>
 void TransferLandmarkDescriptors(Archive& archive,
                                  LandmarkList<Landmark>& landmarks,
@@ -193,7 +192,8 @@ void TransferLandmarkDescriptors(Archive& archive,
       archive, others, [](auto* landmark) -> auto& { return landmark->descriptor; });
 }
 
-// Transfers what points and lines have in common. It comes last, since it needs the observations.
+// Transfers the common members of points and lines, after the specific ones: descriptors need the
+// observations.
 template <class Archive, class Landmark, class DescriptorOf>
 void TransferLandmarks(Archive& archive,
                        LandmarkList<Landmark>& landmarks,
@@ -237,7 +237,7 @@ inline bool IsSymmetric(const Eigen::Matrix4d& matrix) {
   return true;
 }
 
-// Information is symmetric, most often to the last bit. Only its upper half is kept then.
+// Information matrices are symmetric, usually to the last bit; then only the upper half is stored.
 template <class Archive, Like<MapLine> Line, class DescriptorOf>
 void TransferAllOf(Archive& archive, LandmarkList<Line>& lines, const DescriptorOf& descriptor_of) {
   TransferVectors(

@@ -7,21 +7,21 @@
 
 namespace plumbline {
 
-// The maps of two saved atlases in one atlas.
+// The maps of two saved atlases, combined in one atlas.
 struct CombinedAtlases {
-  SavedAtlas saved;  // its active map is the first atlas's
-  // Active map of the second atlas; invalid where it has none.
+  SavedAtlas saved;  // its active map is that of the first atlas
+  // Active map of the second atlas; invalid if it has none.
   MapId second;
 };
 
-// Puts the maps of two atlases of the same camera side by side. Maps of the first keep their ids,
-// those of the second get ids behind them (Renumbered). A session that both have, by its id,
-// becomes one. The evidence about the stereo pair is added up where it comes from one rig and from
-// different sessions, so that none counts twice; otherwise it is that of the first, as are camera,
-// options and front end. O(observations of the second).
+// Combines the maps of two atlases of the same camera. Maps of the first keep their ids, those of
+// the second get ids after them (Renumbered). Sessions with the same uuid become one. The evidence
+// about the stereo pair is summed if it comes from one rig and different sessions, so that none
+// counts twice; otherwise it is that of the first, as are camera, options and front end.
+// O(observations of the second).
 CombinedAtlases CombineAtlases(SavedAtlas first, const SavedAtlas& second);
 
-// Hands what was kept beside a map that was joined to the map that took it in.
+// Hands the data kept beside each absorbed map to the map that absorbed it.
 void SettleJoined(SavedAtlas& saved);
 
 }  // namespace plumbline

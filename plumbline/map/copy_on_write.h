@@ -7,11 +7,11 @@
 
 namespace plumbline {
 
-// A value, or none, that copies share until one of them is to change it. That copy then gets a
-// value of its own. A copy costs as much as a pointer.
+// An optional value that copies share until one of them changes it; that copy then gets a value of
+// its own. A copy costs as much as a pointer.
 //
-// Different copies may be used in different threads at once, since a shared value is only read. One
-// copy is for one thread, like a plain value.
+// Different copies may be used in different threads at once, since a shared value is only read. A
+// single copy is not thread-safe, like a plain value.
 template <class T>
 class CopyOnWrite {
  public:
@@ -31,14 +31,13 @@ class CopyOnWrite {
   }
 
   explicit operator bool() const { return shared_ != nullptr; }
-  // Both return the value, which must be there.
+  // Both return the value, which must exist.
   const T& operator*() const { return shared_->value; }
   const T* operator->() const { return &shared_->value; }
 
-  // Returns the value for changes, until the next copy is made. If others share the value, this one
-  // is given a copy first.
+  // Returns the value for changes, until the next copy is made. A shared value is copied first.
   T& Own() {
-    // The acquire puts the reads of those that gave the value up before the writes to come.
+    // The acquire orders the reads of former owners before the writes to come.
     if (shared_->owners.load(std::memory_order_acquire) != 1) *this = CopyOnWrite(shared_->value);
     return shared_->value;
   }

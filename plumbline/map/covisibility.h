@@ -14,30 +14,29 @@ struct CovisibleKeyFrame {
   int shared = 0;  // points and lines that both keyframes show
 };
 
-// Counts how many of the given landmarks each keyframe shows. Cost: that of the observations, and a
-// 64th of a look for every keyframe id that was ever used.
+// Counts the given landmarks that each keyframe shows. Cost: that of the observations, and a 64th
+// of an access for every keyframe id ever used.
 class SharedCounts {
  public:
   void Add(const Observations& observations);
-  void Leave(KeyFrameId id);  // takes a keyframe out of the ranking
+  void Leave(KeyFrameId id);  // removes a keyframe from the ranking
 
-  // Returns keyframes by their count, the highest first (ties: newest first). Keyframes with less
-  // than min_shared are left out.
+  // Returns the keyframes with at least min_shared, by descending count (ties: newest first).
   std::vector<CovisibleKeyFrame> Rank(int min_shared) const;
 
  private:
   static constexpr std::size_t kPage = 64;
 
-  std::vector<std::vector<int>> pages_;  // kPage ids each; empty where none of them is shared
+  std::vector<std::vector<int>> pages_;  // kPage ids each; empty if none of them is counted
 };
 
-// Number of common landmarks from which on two keyframes see the same place: fewer may be wrong
+// Least number of common landmarks of two keyframes that see the same place; fewer may be wrong
 // matches.
 inline constexpr int kMinShared = 10;
 
-// Returns the keyframes that show at least min_shared of the landmarks that `id` shows, the most
-// shared first (ties: newest first), without `id` itself. Computed from the observations at each
-// call, O(matches x views).
+// Returns the keyframes that show at least min_shared of the landmarks of `id`, by descending count
+// (ties: newest first), without `id` itself. Computed from the observations at each call, O(matches
+// x views).
 std::vector<CovisibleKeyFrame> Covisible(const Map& map,
                                          KeyFrameId id,
                                          int min_shared = kMinShared);

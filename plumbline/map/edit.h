@@ -14,17 +14,17 @@
 
 namespace plumbline {
 
-// The changes that a map can undergo. Algorithms read a Map and return an Edit; Map::Apply is the
-// one place where a map changes.
+// The possible changes of a map. Algorithms read a Map and return a MapEdit; only Map::Apply
+// changes a map.
 namespace edit {
 
-// Adds a keyframe with its matches. Matches with landmarks that were merged meanwhile follow the
-// merge; those with landmarks that were removed are dropped.
+// Adds a keyframe with its matches. Matches with landmarks merged meanwhile follow the merge; those
+// with removed landmarks are dropped.
 struct AddKeyFrame {
   KeyFrame keyframe;
 };
-// Removes a keyframe. Frames that refer to it refer to its parent from then on, with the relative
-// pose at the time of the removal.
+// Removes a keyframe. Frames relative to it become relative to its parent, with the relative pose
+// at the time of the removal.
 struct RemoveKeyFrame {
   KeyFrameId id;
 };
@@ -32,26 +32,25 @@ struct SetPose {
   KeyFrameId id;
   Rigid3 cam_from_world;
 };
-// Moves keyframes, each by a similarity of its own (new from old world), and all that belongs to
-// them. A landmark moves with the newest keyframe that shows it. Removed keyframes, and frames
-// whose pose is kept relative to a keyframe, follow by themselves (KeyFramePose). Keyframes that
-// are not named stay. Where keyframes that see the same landmarks move alike, no reprojection
-// changes. Scales other than 1 are for maps of a single camera, since disparities do not change
-// with them.
+// Moves keyframes, each by its own similarity (new from old world), and their landmarks. A landmark
+// moves with the newest keyframe that shows it. Removed keyframes, and frames whose pose is
+// relative to a keyframe, follow by themselves (KeyFramePose). Other keyframes stay. If keyframes
+// that see the same landmarks move alike, no reprojection changes. Scales other than 1 are for maps
+// of a single camera, since disparities do not scale.
 struct MoveKeyFrames {
   std::map<KeyFrameId, Similarity3> new_from_old;
 };
 
-// Sets the correction of the features of all keyframes, later ones included.
+// Sets the correction of the features of all keyframes, including later ones.
 struct CorrectFeatures {
   FeatureCorrection correction;
-  // Features of keyframes of the map that have the correction already (WithCorrection). Those of
-  // other keyframes are computed when the edit is applied.
+  // Features of keyframes with the correction already applied (WithCorrection). Those of other
+  // keyframes are computed in Apply.
   std::vector<std::pair<KeyFrameId, std::shared_ptr<const FrameFeatures>>> ready = {};
 };
 
-// Replaces the features of a keyframe by the same features in the same order, of which some are at
-// places that are known better. The map's correction is applied to them.
+// Replaces the features of a keyframe by the same features in the same order, some at refined
+// positions. The map's correction is applied to them.
 struct MoveFeatures {
   KeyFrameId id;
   std::shared_ptr<const FrameFeatures> indexed;
@@ -99,8 +98,8 @@ struct RemoveLineObservation {
   LineId id;
   KeyFrameId keyframe;
 };
-// Merges two landmarks: observations of `gone` become observations of `kept`, where the keyframe
-// does not show `kept` already.
+// Merges two landmarks: observations of `gone` become observations of `kept`, except in keyframes
+// that already show `kept`.
 struct MergePoints {
   PointId kept, gone;
 };
@@ -108,7 +107,7 @@ struct MergeLines {
   LineId kept, gone;
 };
 // Recomputes the appearance from the observations: descriptor, viewing direction and reference
-// scale.
+// scale (RefreshAppearance).
 struct RefreshPoint {
   PointId id;
 };
@@ -118,7 +117,7 @@ struct RefreshLine {
 struct ScorePoint {
   PointId id;
   int visible = 0;
-  int found = 0;  // both numbers are added to the score
+  int found = 0;  // both are added to the score
 };
 struct ScoreLine {
   LineId id;

@@ -16,35 +16,34 @@
 
 namespace plumbline {
 
-// The features of one frame with their index by image cell. They are never changed once made, so
-// that frames, keyframes and snapshots share them.
+// The features of one frame with their index by image cell. Immutable, so that frames, keyframes
+// and snapshots share them.
 struct FrameFeatures {
   Features features;
   PointGrid point_grid;
-  FeatureCorrection correction = {};  // the correction that the features have
+  FeatureCorrection correction = {};  // correction applied to the features
 };
 
-// Returns the features with another correction; the same object where they have it already.
+// Returns the features with another correction; the same object if they already have it.
 std::shared_ptr<const FrameFeatures> WithCorrection(
     const std::shared_ptr<const FrameFeatures>& indexed, const FeatureCorrection& correction);
 
-// Returns the features with the places of their lines in the right image, as measured
+// Returns the features with the measured positions of their lines in the right image
 // (FindRightLines).
 std::shared_ptr<const FrameFeatures> WithRightLines(
     const std::shared_ptr<const FrameFeatures>& indexed,
     std::vector<std::optional<RightLine>> measured);
 
-// Returns measured features with a correction and their index, for images of the camera's size.
+// Returns measured features with a correction applied and indexed, for images of the camera's size.
 std::shared_ptr<const FrameFeatures> IndexFeatures(const RectifiedCamera& camera,
                                                    Features measured,
                                                    const FeatureCorrection& correction = {});
 
-// Returns the features as they were measured, without the correction. The result is exact for what
-// IndexFeatures and WithCorrection made of features in single precision (RoundToSinglePrecision).
+// Returns the features as measured, without the correction. Exact for results of IndexFeatures and
+// WithCorrection on features in single precision (RoundToSinglePrecision).
 Features MeasuredFeatures(const FrameFeatures& indexed);
 
-// A frame with a pose and its matches: the landmark that each feature shows, an invalid id for
-// none.
+// A frame with a pose and its matches: the landmark of each feature; an invalid id for none.
 struct Frame {
   FrameId id;
   std::int64_t stamp_ns = 0;
@@ -56,16 +55,15 @@ struct Frame {
   const Features& features() const { return indexed->features; }
 };
 
-// A frame that is kept in the map. Its features are those of the frame it was made from; its
-// matches change with the map.
+// A frame kept in the map. Its features are immutable; its matches change with the map.
 struct KeyFrame {
   KeyFrameId id;
-  KeyFrameId parent;  // the keyframe it was tracked against; invalid for the first
+  KeyFrameId parent;  // keyframe it was tracked against; invalid for the first
   Frame frame;
-  // The present length of what had the length 1 around the keyframe when it came into the map: the
-  // product of the scales of all motions it took part in (edit::MoveKeyFrames).
+  // Scale of the map around the keyframe relative to that at its insertion: the product of the
+  // scales of all its motions (edit::MoveKeyFrames).
   double scale = 1;
-  // Number of keyframes that the map had taken in before; the map sets it.
+  // Number of keyframes inserted into the map before it; set by the map.
   std::int64_t number = 0;
   SessionId session{0};  // session of its frame
 };

@@ -17,28 +17,28 @@
 
 namespace plumbline {
 
-// Entries keyed by ids that are given one after the other. It is read like a std::map, in the order
-// of the ids, but finds an id without a search. It is a table of pages of kPage ids each; a page
-// exists while one of its ids does. Memory beside the entries: at most a page for each entry, and a
-// pointer for every kPage ids up to the largest that was ever used.
+// Entries keyed by ids that are assigned consecutively. Read like a std::map, in the order of the
+// ids, but finds an id without a search: a table of pages of kPage ids each, allocated while one of
+// its ids exists. Memory beside the entries: at most a page for each entry, and a pointer for every
+// kPage ids up to the largest ever used.
 //
 // Copies share pages and entries until one of them changes them (CopyOnWrite). A copy costs a
-// pointer for each page, and may be read in another thread while this one goes on changing. An
-// entry stays where it is until it is changed after a copy was made.
+// pointer for each page, and may be read in another thread while the original changes. The address
+// of an entry is stable until it is changed after a copy was made.
 //
-// Each page knows when it last changed, so that those who follow a large table look only at pages
-// that changed since their last look. A change is an entry that was added, removed, or handed out
-// by a function that is not const, whatever became of it.
+// Each page records when it last changed, so that readers of a large table visit only pages changed
+// since their last visit. An entry counts as changed when it is added, removed, or returned by a
+// non-const function.
 //
-// Where a function throws (std::bad_alloc), no entry has changed. Several changes happen together
-// or not at all under an Undo.
+// If a function throws (std::bad_alloc), no entry has changed. An Undo makes several changes happen
+// together or not at all.
 template <class Id, class T>
 class IdTable {
  public:
   using Entry = std::pair<const Id, T>;
   static constexpr std::size_t kPage = 64;
 
-  // Goes through the entries in the order of their ids.
+  // Iterates over the entries in the order of their ids.
   class Iterator {
    public:
     using iterator_category = std::bidirectional_iterator_tag;
@@ -75,7 +75,7 @@ class IdTable {
     Iterator(const IdTable* table, std::size_t place) : table_(table), place_(place) {}
 
     const IdTable* table_ = nullptr;
-    std::size_t place_ = 0;  // place of an entry, or kEnd
+    std::size_t place_ = 0;  // id of an entry, or kEnd
   };
   using ReverseIterator = std::reverse_iterator<Iterator>;
 
@@ -83,9 +83,9 @@ class IdTable {
   struct Page;
 
  public:
-  // Puts a table back as it was when this was made, unless Keep() is called before the end. Each
-  // page and entry that changes meanwhile is copied once, so that pointers to it from before are
-  // invalid. One at a time; meanwhile the table may not be moved, assigned to or swapped.
+  // Restores the table to its state at construction, unless Keep() is called before destruction.
+  // Each page and entry that changes meanwhile is copied once, so that earlier pointers to it are
+  // invalid. One at a time; meanwhile the table must not be moved, assigned to or swapped.
   class Undo {
    public:
     explicit Undo(IdTable& table)
@@ -107,7 +107,7 @@ class IdTable {
    private:
     friend class IdTable;
 
-    // To be called before a page changes.
+    // Call before a page changes.
     void Remember(std::size_t page) {
       const CopyOnWrite<Page>& now = table_.pages_[page];
       const bool known = now && now->changed > changes_;
@@ -129,7 +129,7 @@ class IdTable {
   };
 
   IdTable() = default;
-  // The whole copy counts as changed, later than all changes of the other table. O(pages).
+  // The whole copy counts as changed, later than all changes of the original. O(pages).
   IdTable(const IdTable& other)
       : pages_(other.pages_),
         first_page_(other.first_page_),
@@ -152,18 +152,17 @@ class IdTable {
   // Returns the entry of an id, or end().
   Iterator find(Id id) const { return {this, Find(id) == nullptr ? kEnd : PlaceOf(id)}; }
   bool contains(Id id) const { return Find(id) != nullptr; }
-  // Throws std::out_of_range where there is no entry of the id.
+  // Throws std::out_of_range if the id has no entry.
   const T& at(Id id) const {
     const T* entry = Find(id);
     if (entry == nullptr) throw std::out_of_range("no entry of this id");
     return *entry;
   }
-  // Returns the first entry with an id not less than this one (lower_bound), or greater
-  // (upper_bound).
+  // Returns the first entry with an id not less than `id` (lower_bound), or greater (upper_bound).
   Iterator lower_bound(Id id) const { return {this, NextPlace(id.valid() ? PlaceOf(id) : 0)}; }
   Iterator upper_bound(Id id) const { return {this, NextPlace(id.valid() ? PlaceOf(id) + 1 : 0)}; }
 
-  // Returns nullptr where there is no entry, and for an invalid id. O(1).
+  // Returns nullptr if the id is invalid or has no entry. O(1).
   const T* Find(Id id) const {
     if (!id.valid() || PageOf(id) >= pages_.size()) return nullptr;
     const CopyOnWrite<Page>& page = pages_[PageOf(id)];
@@ -171,8 +170,8 @@ class IdTable {
     const CopyOnWrite<Entry>& entry = page->entries[PlaceInPage(id)];
     return entry ? &entry->second : nullptr;
   }
-  // Returns the entry so that it can be changed, or nullptr where there is none. The pointer may be
-  // used for changes until the table is copied.
+  // Returns the entry for changes, or nullptr if the id has none. Changes through the pointer are
+  // allowed until the table is copied.
   T* Find(Id id) {
     if (!contains(id)) return nullptr;
     return &ToChange(PageOf(id)).entries[PlaceInPage(id)].Own().second;
@@ -191,7 +190,7 @@ class IdTable {
     }
   }
 
-  // Adds an entry; an id that is there already keeps its entry.
+  // Adds an entry; an existing entry of the id is kept.
   void Insert(Id id, T entry) {
     if (contains(id)) return;
     CopyOnWrite<Entry> added(Entry(id, std::move(entry)));
@@ -219,19 +218,18 @@ class IdTable {
     --size_;
   }
 
-  // Whether there is an Undo of this table.
+  // Returns true while an Undo of this table exists.
   bool undoing() const { return undo_ != nullptr; }
-  // Returns how many changes there were.
+  // Returns the number of changes so far.
   std::uint64_t changes() const { return changes_; }
   // Returns the number of pages. Page n has the ids n * kPage to n * kPage + kPage - 1; no id of a
   // later page was ever used.
   std::size_t page_count() const { return pages_.size(); }
-  // Returns the value of changes() after the last change of a page; 0 where none of its ids is
-  // there.
+  // Returns the value of changes() after the last change of a page; 0 if the page is empty.
   std::uint64_t PageChanged(std::size_t page) const {
     return page < pages_.size() && pages_[page] ? std::max(pages_[page]->changed, copied_at_) : 0;
   }
-  // Returns which ids of a page are there: bit i is set for id n * kPage + i of page n.
+  // Returns the occupied ids of a page: bit i is set for id n * kPage + i of page n.
   std::uint64_t TakenOfPage(std::size_t page) const {
     return page < pages_.size() && pages_[page] ? pages_[page]->taken : 0;
   }
@@ -249,8 +247,8 @@ class IdTable {
  private:
   struct Page {
     std::array<CopyOnWrite<Entry>, kPage> entries;
-    std::uint64_t taken = 0;  // one bit for each entry that is there
-    // The counter changes_ after its last change, in the table that changed it.
+    std::uint64_t taken = 0;  // one bit for each existing entry
+    // Value of changes_ after its last change, in the table that changed it.
     std::uint64_t changed = 0;
   };
 
@@ -261,7 +259,7 @@ class IdTable {
   static std::size_t PlaceInPage(Id id) { return PlaceOf(id) % kPage; }
   static std::uint64_t Bit(std::size_t place_in_page) { return std::uint64_t{1} << place_in_page; }
 
-  // Returns a page of its own, which is made where there is none.
+  // Returns a page that is not shared, allocated if necessary.
   Page& ToChange(std::size_t page) {
     if (undo_ != nullptr) undo_->Remember(page);
     CopyOnWrite<Page>& shared = pages_[page];
@@ -271,7 +269,7 @@ class IdTable {
     return own;
   }
 
-  // Returns the place of the first entry from this place on, or kEnd.
+  // Returns the place of the first entry at or after `place`, or kEnd.
   std::size_t NextPlace(std::size_t place) const {
     std::uint64_t mask = ~std::uint64_t{0} << (place % kPage);
     for (std::size_t page = place / kPage; page < pages_.size(); ++page) {
@@ -281,7 +279,7 @@ class IdTable {
     }
     return kEnd;
   }
-  // Returns the place of the last entry before this place, where there is one.
+  // Returns the place of the last entry before `place`, which must exist.
   std::size_t PlaceBefore(std::size_t place) const {
     std::size_t page = std::min(place / kPage, pages_.size());
     std::uint64_t mask = page < pages_.size() ? Bit(place % kPage) - 1 : 0;
@@ -295,8 +293,8 @@ class IdTable {
     }
   }
 
-  // Moves first_page_ to the first page that exists. Where the oldest entries go first, all calls
-  // together look at each page once.
+  // Advances first_page_ to the first allocated page. If the oldest entries are erased first, all
+  // calls together visit each page once.
   void SkipEmptyPages() {
     while (first_page_ < pages_.size() && !pages_[first_page_]) ++first_page_;
   }
@@ -309,11 +307,11 @@ class IdTable {
     std::swap(copied_at_, other.copied_at_);
   }
 
-  std::vector<CopyOnWrite<Page>> pages_;  // none where no id of the page is there
-  std::size_t first_page_ = 0;            // no page before it exists
+  std::vector<CopyOnWrite<Page>> pages_;  // null for pages without an entry
+  std::size_t first_page_ = 0;            // no page before it is allocated
   std::size_t size_ = 0;
   std::uint64_t changes_ = 0;
-  std::uint64_t copied_at_ = 0;  // changes_ at the time this became a copy
+  std::uint64_t copied_at_ = 0;  // changes_ when this became a copy
   Undo* undo_ = nullptr;         // not copied
 };
 

@@ -9,12 +9,11 @@
 
 namespace plumbline {
 
-// Returns the poses of the left camera as delivered at the keyframes of a map, in order of time. A
-// trajectory has one pose at a time: of several keyframes of one time, which a merged map may have,
-// it has the one with the lowest number.
+// Returns the poses of the left camera as delivered at the keyframes of a map, in order of time. Of
+// several keyframes with one stamp, which a merged map may have, only the one with the lowest
+// number is used.
 //
-//   rectified_from_left  rotation from the camera as delivered to the one in which the map's
-//                        features are
+//   rectified_from_left  rotation from the camera as delivered to that of the map's features
 Trajectory KeyFrameTrajectory(const Map& map, const Eigen::Quaterniond& rectified_from_left);
 
 }  // namespace plumbline

@@ -13,23 +13,23 @@
 
 namespace plumbline {
 
-// What is needed to find a point in an image: its place and its appearance.
+// Model of a point for search in images: position and appearance.
 struct PointModel {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();        // in the world
   Eigen::Vector3d view_direction = Eigen::Vector3d::Zero();  // mean unit vector from the cameras
-  // Distance from the camera at which the point shows in octave reference_octave.
+  // Distance from the camera at which the point appears in octave reference_octave.
   double reference_distance = 0;
   int reference_octave = 0;  // octave at reference_distance
   Descriptor descriptor{};   // the most typical descriptor of its observations
 };
 
-// What is needed to find a line in an image. Optimization works on the infinite line; the interval
-// [start, end] of parameters along it (PluckerLine::PointAt) serves search and display only.
+// Model of a line for search in images. Optimization works on the infinite line; the interval
+// [start, end] of parameters along it (PluckerLine::PointAt) is for search and display only.
 struct LineModel {
-  PluckerLine line;  // in the world; directed with the brighter side as LineFeature says
+  PluckerLine line;  // in the world; direction by its brighter side (LineFeature)
   double start = 0;
   double end = 0;
-  // Information of the orthonormal tangent, with the poses held.
+  // Information matrix of the orthonormal tangent, with fixed poses.
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
   Eigen::Vector3d view_direction = Eigen::Vector3d::Zero();
   Descriptor descriptor{};
@@ -37,7 +37,7 @@ struct LineModel {
   Segment3 Interval() const { return {line.PointAt(start), line.PointAt(end)}; }
 };
 
-// How often the tracker expected to see a landmark, and how often it saw it.
+// Number of frames in which the tracker expected a landmark, and in which it found it.
 struct TrackingScore {
   int visible = 1;
   int found = 1;
@@ -45,7 +45,7 @@ struct TrackingScore {
   double Ratio() const { return static_cast<double>(found) / visible; }
 };
 
-// Scores gathered over several frames.
+// Scores accumulated over several frames.
 struct TrackingScores {
   std::map<PointId, TrackingScore> points;
   std::map<LineId, TrackingScore> lines;

@@ -20,73 +20,69 @@
 
 namespace plumbline {
 
-// Keyframes, points and lines of one connected world, keyed by id. Many read it, only Apply changes
-// it. A copy shares with the other map what neither has changed since. Copying takes some
-// microseconds for a thousand landmarks, and the copy may be read in another thread.
+// Keyframes, points and lines of one connected world, keyed by id. Only Apply changes it. Copies
+// share unchanged parts. Copying takes some microseconds per thousand landmarks, and the copy may
+// be read in another thread.
 class Map {
  public:
   explicit Map(MapId id = MapId{0}) : id_(id) {}
 
   MapId id() const { return id_; }
-  // Those who keep what they computed of a map hold this token, too. A map that has it is the one
-  // they looked at, and the pages of its tables tell what has changed since. Copies have tokens of
-  // their own; a map that was moved away has none (nullptr).
+  // Identity of this object, for caches of values computed from a map: equal tokens mean the same
+  // map, and the pages of its tables tell what has changed since. Copies have tokens of their own;
+  // a moved-from map has none (nullptr).
   const std::shared_ptr<const char>& token() const { return identity_.token(); }
-  // The tables, in the order of the ids. Their pages tell when they last changed, so that those who
-  // show a large map need not compare all of it.
+  // The tables, in the order of the ids. Their pages record when they last changed, so that a
+  // viewer of a large map need not compare all of it.
   const IdTable<KeyFrameId, KeyFrame>& keyframes() const { return keyframes_; }
   const IdTable<PointId, MapPoint>& points() const { return points_; }
   const IdTable<LineId, MapLine>& lines() const { return lines_; }
 
-  // Returns nullptr where there is no such object (any more). The pointer is valid until the map
-  // changes.
+  // Returns nullptr for an unknown or removed object. The pointer is valid until the map changes.
   const KeyFrame* Find(KeyFrameId id) const;
   const MapPoint* Find(PointId id) const;
   const MapLine* Find(LineId id) const;
 
-  // Number of merges of each kind that are remembered. Matches that are on their way into the map
-  // are those of the last few keyframes. When there are more merges, that of the oldest landmark is
-  // forgotten.
+  // Largest number of remembered merges of each kind. Only matches of the last few keyframes, not
+  // yet in the map, need them. Beyond it, the merge of the oldest landmark is forgotten.
   static constexpr std::size_t kMostMerges = std::size_t{1} << 16U;
 
-  // Returns the landmark that `id` is today: itself, the one it was merged into, or an invalid id.
+  // Returns the current id of a landmark: `id`, the one it was merged into, or an invalid id.
   PointId Current(PointId id) const;
   LineId Current(LineId id) const;
 
-  // Returns the place of a keyframe that is or was in the map: a removed one moves with its parent.
+  // Returns the pose of a keyframe that is or was in the map: a removed one moves with its parent.
   KeyFramePose PlaceOf(KeyFrameId id) const;
   Rigid3 PoseOf(KeyFrameId id) const { return PlaceOf(id).cam_from_world; }
-  // Whether a keyframe is or was in the map.
+  // Returns true if a keyframe is or was in the map.
   bool Knows(KeyFrameId id) const;
-  // Returns KeyFrame::parent, even of a removed keyframe; invalid for one that the map does not
-  // know.
+  // Returns KeyFrame::parent, even of a removed keyframe; invalid for an unknown one.
   KeyFrameId ParentOf(KeyFrameId id) const;
   // Returns KeyFrame::number, even of a removed keyframe.
   std::int64_t NumberOf(KeyFrameId id) const;
 
-  // Grows with every edit that is applied.
+  // Increases with every applied edit.
   std::int64_t version() const { return version_; }
 
-  // Makes new landmarks get at least these ids, since an atlas uses an id only once in all its
-  // maps.
+  // Makes new landmarks get at least these ids, since ids are unique in all maps of an atlas.
   void ReserveIds(PointId next_point, LineId next_line);
 
-  // Ids for new objects, higher than any used before.
+  // Ids for new objects, higher than all earlier ones.
   KeyFrameId NextKeyFrameId() const { return next_keyframe_; }
   PointId NextPointId() const { return next_point_; }
   LineId NextLineId() const { return next_line_; }
 
-  // The correction that is applied to the features of all keyframes.
+  // Correction applied to the features of all keyframes.
   const FeatureCorrection& correction() const { return correction_; }
 
-  // Returns what has to be saved beside keyframes and landmarks. A MapBuilder makes the map of all
-  // of it.
+  // Returns the data to be saved beside keyframes and landmarks. MapBuilder restores the map from
+  // all of it.
   MapRecord Record() const;
 
-  // Makes several changes happen together or not at all: puts the map back as it was when this was
-  // made, unless Keep() is called before the end. Each page and entry that changes meanwhile is
-  // copied once. The map may be copied meanwhile, not moved. Within another one of the same map, it
-  // leaves that to the other.
+  // Makes several changes happen together or not at all: restores the map's state at construction,
+  // unless Keep() is called before destruction. Each page and entry that changes meanwhile is
+  // copied once. Meanwhile the map may be copied, but not moved. Nested in another Undo of the same
+  // map, it does nothing.
   class Undo {
    public:
     explicit Undo(Map& map);
@@ -99,23 +95,23 @@ class Map {
     struct Before;
 
     Map& map_;
-    std::unique_ptr<Before> before_;  // null within another one
+    std::unique_ptr<Before> before_;  // null if nested in another one
     bool keep_ = false;
   };
 
-  // Carries out the changes in order. Changes that name an object that an earlier change removed
-  // are skipped. Where anything is thrown, the map is as it was.
+  // Applies the changes in order. Changes of objects that an earlier change removed are skipped. If
+  // it throws, the map is unchanged.
   void Apply(const MapEdit& edit);
 
-  // Takes in all of another map of the same atlas, which uses none of this map's ids. The other map
-  // is moved by `this_from_other` (from world to world; scale 1 where depth is measured). The
-  // keyframes of the map that took in the newest one count as taken in after those of the other.
-  // Features of the other map get this map's correction; where it has no lens correction, both get
-  // that of the other map. Landmarks that both maps have are there twice until they are fused.
-  // Where anything is thrown, this map is as it was. O(size of both maps).
+  // Absorbs another map of the same atlas, whose ids are disjoint from this map's. The other map is
+  // moved by `this_from_other` (from world to world; scale 1 if depth is measured). Keyframes are
+  // renumbered (KeyFrame::number): those of the map that made the newest one come last. Features of
+  // the other map get this map's correction; if this map has no lens correction, both get that of
+  // the other map. Landmarks of both maps are duplicates until they are fused. If it throws, this
+  // map is unchanged. O(size of both maps).
   void Absorb(Map other, const Similarity3& this_from_other);
 
-  // Throws BugError when observations and matches disagree or a landmark has none.
+  // Throws BugError if observations and matches disagree or a landmark has no observation.
   void CheckInvariants() const;
 
  private:
@@ -137,12 +133,12 @@ class Map {
   IdTable<PointId, MapPoint> points_;
   IdTable<LineId, MapLine> lines_;
   RemovedKeyFrames removed_keyframes_;
-  // key: the landmark that is gone; value: the one it became
+  // key: the removed landmark; value: the one it was merged into
   IdTable<PointId, PointId> merged_points_;
   IdTable<LineId, LineId> merged_lines_;
 };
 
-// Returns the places of the points of a map in the world, in the order of their ids.
+// Returns the positions of a map's points in the world, in the order of their ids.
 std::vector<Eigen::Vector3d> PointPositions(const Map& map);
 
 }  // namespace plumbline

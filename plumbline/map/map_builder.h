@@ -9,15 +9,15 @@
 
 namespace plumbline {
 
-// All ids of a map to be built must be less than this, because a map has an index of all of its
-// ids: a pointer for every 64 of them, which a forged file must not make as large as it likes. A
-// camera that never stops gives about 600 ids a second to points, which is enough for ten days.
+// Upper bound (exclusive) of all ids of a map to be built. A map has an index of all of its ids, a
+// pointer for every 64 of them, whose size a forged file must not choose freely. Continuous
+// recording assigns about 600 ids a second to points, so that the bound lasts for ten days.
 inline constexpr std::int64_t kMaxBuiltId = std::int64_t{1} << 29;
 
-// Makes a map from its saved parts: Map::Record, its keyframes, its points, its lines, each kind in
-// the order of the ids. The parts are checked: for what no map can be it throws InputError
-// "<source>: expected a map that agrees with itself, found ...", so that the result of Finish
-// serves all functions of Map. Cost: O(observations) and some searches.
+// Builds a map from its saved parts: Map::Record, its keyframes, its points, its lines, each kind
+// in the order of the ids. Inconsistent parts throw InputError "<source>: expected a map that
+// agrees with itself, found ...", so that the result of Finish is valid for all functions of Map.
+// Cost: O(observations) and some searches.
 class MapBuilder {
  public:
   // `source` names the origin of the map in messages.
@@ -30,7 +30,7 @@ class MapBuilder {
   void Add(MapPoint point);
   void Add(MapLine line);
 
-  // The map of all parts that were added so far.
+  // The map of all parts added so far.
   const Map& map() const { return map_; }
 
   Map Finish();

@@ -7,8 +7,8 @@
 
 namespace plumbline {
 
-// Tells a map from its copies, which have the same id but may go on differently. A copy gets an
-// identity of its own; a map that is moved takes its identity along.
+// Distinguishes a map from its copies, which have the same id but may diverge. A copy gets an
+// identity of its own; a moved map keeps its identity.
 class MapIdentity {
  public:
   MapIdentity() : token_(std::make_shared<const char>('\0')) {}
@@ -20,7 +20,7 @@ class MapIdentity {
   }
   ~MapIdentity() = default;
 
-  // Returns what no other identity has while somebody holds it; nullptr after a move.
+  // Returns a pointer that is unique while anyone holds it; nullptr after a move.
   const std::shared_ptr<const char>& token() const { return token_; }
 
  private:

@@ -11,7 +11,7 @@
 
 namespace plumbline {
 
-// All of a map except its keyframes and landmarks. Together they are the whole map (MapBuilder).
+// All of a map except its keyframes and landmarks. MapBuilder restores the map from both.
 struct MapRecord {
   MapId id{0};
   std::int64_t version = 0;
@@ -21,7 +21,7 @@ struct MapRecord {
   LineId next_line{0};
   FeatureCorrection correction;
   std::map<KeyFrameId, RemovedKeyFrame> removed_keyframes;
-  // key: the landmark that is gone; value: the one it became
+  // key: the removed landmark; value: the one it was merged into
   std::map<PointId, PointId> merged_points;
   std::map<LineId, LineId> merged_lines;
 };

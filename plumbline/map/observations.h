@@ -13,9 +13,9 @@
 
 namespace plumbline {
 
-// The feature with which each keyframe shows a landmark. It is used like a std::map, but is one
-// piece of memory, since mapping goes through the observations of thousands of landmarks for every
-// keyframe. Keyframes are added mostly at the end.
+// Observations of a landmark: the index of its feature in each keyframe. Used like a std::map, but
+// contiguous in memory, since mapping iterates over the observations of thousands of landmarks for
+// every keyframe. Keyframes are added mostly at the end.
 class Observations {
  public:
   using value_type = std::pair<KeyFrameId, int>;
@@ -43,7 +43,7 @@ class Observations {
     return place->second;
   }
 
-  // Adds an observation; a keyframe that is there already keeps its feature.
+  // Adds an observation; an existing one of the keyframe is kept.
   void emplace(KeyFrameId keyframe, int feature) {
     const auto place = LowerBound(keyframe);
     if (place == end() || place->first != keyframe) entries_.insert(place, {keyframe, feature});

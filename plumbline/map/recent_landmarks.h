@@ -8,7 +8,7 @@
 
 namespace plumbline {
 
-// Landmarks that are too young to be trusted. Some may have left the map.
+// Landmarks created recently, still on probation. Some may have left the map.
 struct RecentLandmarks {
   std::vector<PointId> points;
   std::vector<LineId> lines;

@@ -13,18 +13,18 @@
 
 namespace plumbline {
 
-// A keyframe that left the map, relative to a keyframe that stayed: its parent, or the keyframe to
-// which the parent referred when it left.
+// A removed keyframe, relative to a keyframe of the map: its parent, or the keyframe to which the
+// parent referred at the removal.
 struct RemovedKeyFrame {
   KeyFrameId parent;
   RelativePose from_parent;
-  double scale = 1;  // its own scale when it left
+  double scale = 1;  // its own scale at its removal
   std::int64_t number = 0;
 };
 
-// The keyframes that left a map. Each refers to one that is in the map. When that one leaves, too,
-// all that refers to it refers to its parent from then on, so that no chains grow however long the
-// map is used. A removed keyframe takes about 200 bytes.
+// Removed keyframes of a map, each relative to one in the map. If that one is removed, too, its
+// entries become relative to its parent, so that no chains form however long the map is used. An
+// entry takes about 200 bytes.
 class RemovedKeyFrames {
  public:
   RemovedKeyFrames() = default;
@@ -33,15 +33,15 @@ class RemovedKeyFrames {
 
   const IdTable<KeyFrameId, RemovedKeyFrame>& entries() const { return entries_; }
   bool contains(KeyFrameId id) const { return entries_.contains(id); }
-  // Returns nullptr where the keyframe was not removed.
+  // Returns nullptr if the keyframe was not removed.
   const RemovedKeyFrame* Find(KeyFrameId id) const { return entries_.Find(id); }
 
-  // Adds a keyframe that leaves the map; its parent must be in the map. Cost: that of the entries
-  // that refer to it.
+  // Adds a removed keyframe; its parent must be in the map. Cost: that of the entries relative to
+  // it.
   void Add(KeyFrameId id, const RemovedKeyFrame& entry);
   // Adds to the numbers of all entries.
   void ShiftNumbers(std::int64_t shift);
-  // Takes in the entries of another map, which uses other ids.
+  // Adds the entries of another map with disjoint ids.
   void Absorb(const RemovedKeyFrames& other);
 
   // As IdTable::Undo.

@@ -10,11 +10,11 @@
 
 namespace plumbline {
 
-// What is added to the ids of a map that is to stand beside others in one atlas, or become part of
-// one of them: the number of ids that these have used.
+// Offsets of the ids of a map that joins others in one atlas, or is absorbed by one of them: the
+// numbers of ids used there.
 struct IdOffsets {
   std::int64_t maps = 0, keyframes = 0, points = 0, lines = 0;
-  std::vector<SessionId> sessions;  // new id of each session; later ones keep theirs
+  std::vector<SessionId> sessions;  // new id of each session; later ones are unchanged
 
   MapId operator()(MapId id) const { return Behind(id, maps); }
   KeyFrameId operator()(KeyFrameId id) const { return Behind(id, keyframes); }
@@ -23,18 +23,18 @@ struct IdOffsets {
   SessionId operator()(SessionId id) const;
 
  private:
-  // An id that names nothing stays as it is.
+  // An invalid id is unchanged.
   template <class SomeId>
   static SomeId Behind(SomeId id, std::int64_t offset) {
     return id.valid() ? SomeId{id.value + offset} : id;
   }
 };
 
-// Returns the offsets that put ids behind all that a map has used; sessions stay.
+// Returns the offsets that put ids after all ids of a map; sessions are unchanged.
 IdOffsets Behind(const Map& map);
 
-// Returns the map with other ids, those of removed and merged objects included. Nothing else
-// changes. Throws InputError where ids become greater than a map can have. O(observations).
+// Returns the map with shifted ids, including those of removed and merged objects. Nothing else
+// changes. Throws InputError if an id exceeds the largest of a map. O(observations).
 Map Renumbered(const Map& map, const IdOffsets& offsets);
 
 }  // namespace plumbline

@@ -17,30 +17,32 @@
 
 namespace plumbline {
 
-// What belongs to a map of an atlas beside the map itself.
+// Data of a map of an atlas beside the map itself.
 struct MapContext {
   Uuid uuid;
   RecentLandmarks young;
 };
 
-// What the maps of an atlas were made with, and what else a run needs to go on with them.
+// Settings with which the maps of an atlas were made, and the state with which a run continues
+// them.
 struct AtlasContext {
-  RectifiedCamera camera;  // camera with which all features were measured
+  RectifiedCamera camera;  // camera of all features
   Eigen::Quaterniond rectified_from_left = Eigen::Quaterniond::Identity();
   double octave_scale = 1.2;  // scale between octaves of the points' image pyramid
-  // What is known of the pair of cameras. It is worth something only to a run with the same
-  // rectified camera, turned against the left one in the same way (CameraDifference).
+  // Fingerprint of the rig of the evidence (FingerprintOf(Calibration)); 0: unknown. The evidence
+  // is void for another calibration; corrections applied to maps stay valid.
+  std::uint64_t calibration = 0;
   StereoEvidence stereo_evidence;
-  std::int32_t feature_format = 0;  // kFeatureFormat of the program that measured; 0: unknown
-  std::string options_yaml;         // options that decided about the results
-  std::vector<Session> sessions;    // index: KeyFrame::session
+  FrontEndFingerprint front_end;
+  std::string options_yaml;       // options that affected the results
+  std::vector<Session> sessions;  // index: KeyFrame::session
   std::map<MapId, MapContext> maps;
 };
 
 struct SavedAtlas {
   Atlas atlas;
   AtlasContext context;
-  // Version of the format of the file it was read from; 0: not read from a file.
+  // Format version of the file it was read from; 0: not read from a file.
   std::uint32_t file_version = 0;
 };
 
