@@ -16,7 +16,7 @@
 
 namespace plumbline {
 
-// An observation of the caller's problem, from which a landmark's view of it is made.
+// Observation in the caller's problem, from which a landmark's observation is made.
 template <class Term>
 struct BaObservation {
   int pose = 0;
@@ -30,17 +30,17 @@ concept HasDirection = requires(const typename Kind::Place& place) {
   place.direction;
 };
 
-// Requires that landmarks of this kind complete their equations, because their observations cannot
-// fix all of their parameters.
+// Requires that landmarks of this kind complete their equations, since their observations do not
+// determine all of their parameters.
 template <class Kind>
 concept HoldsGauge = requires(const typename Kind::View& view,
                               LandmarkEquations<Kind::kDof>& equations) {
   Kind::HoldGauge(view, equations);
 };
 
-// All landmarks of one kind (BaPoint, BaLine) with their observations. These are stored landmark by
-// landmark and within each by pose; landmarks are linearized, eliminated and moved in that order.
-// Internal to bundle_adjuster.h.
+// All landmarks of one kind (BaPoint, BaLine) with their observations, stored by landmark and
+// within each by pose; landmarks are linearized, eliminated and moved in that order. Internal to
+// bundle_adjuster.h.
 template <class Kind>
 class BaLandmarks {
  public:
@@ -54,8 +54,8 @@ class BaLandmarks {
               BaParallelLines parallel = {});
 
   const std::vector<State>& states() const { return states_; }
-  // Returns half the loss over the observations and parallels in use, and remembers the part of
-  // each landmark.
+  // Returns half the loss over the observations and parallels in use, and stores each landmark's
+  // part.
   double Cost(const std::vector<BaPose>& poses, const HuberThresholds& huber);
   // Adds the equations of the observations and parallels in use to `solver` and eliminates the
   // landmarks.
@@ -63,27 +63,26 @@ class BaLandmarks {
                  const HuberThresholds& huber,
                  double lambda,
                  SchurSolver& solver);
-  // Moves all landmarks by the solved step to trial states. A landmark that fits worse after the
-  // step than before it is moved on its own instead. Returns the cost under the trial poses.
+  // Moves all landmarks by the solved step to trial states. A landmark whose cost rises by the step
+  // is moved on its own instead. Returns the cost under the trial poses.
   double Try(const std::vector<BaPose>& trial_poses,
              const HuberThresholds& huber,
              const SchurSolver& solver);
-  // Returns the landmarks' share of the decrease of the cost that the linear model expects of the
-  // step.
+  // Returns the landmarks' share of the decrease of the cost that the linear model predicts.
   double expected_decrease() const { return expected_; }
   // Makes the trial states the current ones.
   void Accept();
-  // Takes into use exactly the observations and parallels whose chi2 is within the limit at 95 %.
-  // Returns whether that changed any.
+  // Puts into use exactly the observations and parallels whose chi2 is within the limit at 95 %.
+  // Returns true if that changed any.
   bool Classify(const std::vector<BaPose>& poses);
-  // Takes into use all observations and parallels that have a residual.
+  // Puts into use all observations and parallels that have a residual.
   void UseAll(const std::vector<BaPose>& poses);
   std::size_t used() const {
     return static_cast<std::size_t>(std::count(used_.begin(), used_.end(), char{1})) +
            parallel_.used();
   }
-  // Returns how many bytes the landmarks, their observations and their parts of the equations take,
-  // with the room that vectors keep in reserve.
+  // Returns the memory in bytes of the landmarks, their observations and their parts of the
+  // equations, including the reserve of vectors.
   std::size_t Bytes() const {
     return HeapBytes(states_) + HeapBytes(trial_) + HeapBytes(begin_) + HeapBytes(coupling_begin_) +
            HeapBytes(observations_) + HeapBytes(original_) + HeapBytes(used_) + HeapBytes(chi2_) +
@@ -114,15 +113,15 @@ class BaLandmarks {
                 const State& state,
                 const std::vector<BaPose>& poses,
                 const HuberThresholds& huber) const;
-  // Returns the equations of one landmark; with a solver, also adds those of the free poses and the
-  // couplings.
+  // Returns the equations of one landmark; if a solver is given, also adds those of the free poses
+  // and the couplings.
   LandmarkEquations<Kind::kDof> Linearize(std::size_t i,
                                           const State& state,
                                           const std::vector<BaPose>& poses,
                                           const HuberThresholds& huber,
                                           SchurSolver* solver);
-  // Sets the trial of a landmark by a few damped steps from its state (with cost `still`) while the
-  // poses do not move. The damping of the landmark is kept from call to call.
+  // Sets the trial of a landmark by a few damped steps from its state (with cost `still`) under
+  // fixed poses. The damping of the landmark is kept from call to call.
   void MoveAlone(std::size_t i,
                  double still,
                  const std::vector<BaPose>& trial_poses,
@@ -135,9 +134,9 @@ class BaLandmarks {
 
   RectifiedCamera camera_;
   std::vector<State> states_, trial_;
-  // First observation of each landmark, and the end.
+  // First observation of each landmark, then the end.
   std::vector<std::size_t> begin_;
-  std::vector<std::size_t> coupling_begin_;  // first coupling of each landmark, and the end
+  std::vector<std::size_t> coupling_begin_;  // first coupling of each landmark, then the end
   std::vector<Packed> observations_;
   std::vector<std::size_t> original_;  // index in the caller's observations
   BaParallelLines parallel_;

@@ -11,9 +11,9 @@
 
 namespace plumbline {
 
-// The residuals of the parallel lines of a problem: weight x and weight y of a line's unit
-// direction (x, y, z) in a frame with the axis as its z. The axes do not move, so that each
-// residual concerns one line and no pose. Internal to bundle_adjuster.h.
+// Residuals of the parallel lines of a problem: weight x and weight y of a line's unit direction
+// (x, y, z) in a frame with the axis as its z. The axes are constant, so that each residual depends
+// on one line and no pose. Internal to bundle_adjuster.h.
 class BaParallelLines {
  public:
   BaParallelLines() = default;  // no parallel lines
@@ -30,12 +30,12 @@ class BaParallelLines {
            double huber,
            LandmarkEquations<kDof>& equations) const;
 
-  // Remembers the chi2 of a line with this direction, for Classify() and UseAll().
+  // Stores the chi2 of a line with this direction, for Classify() and UseAll().
   void UpdateChi2(std::size_t line, const Eigen::Vector3d& direction);
-  // Takes into use exactly the residuals whose chi2 is within the limit at 95 %. Returns whether
+  // Puts into use exactly the residuals whose chi2 is within the limit at 95 %. Returns true if
   // that changed any.
   bool Classify();
-  // Takes into use all residuals that are finite.
+  // Puts into use all residuals that are finite.
   void UseAll();
   std::size_t used() const;
   std::size_t Bytes() const;
@@ -48,7 +48,7 @@ class BaParallelLines {
     bool used = true;
   };
 
-  std::vector<std::size_t> begin_;   // first residual of each line, and the end
+  std::vector<std::size_t> begin_;   // first residual of each line, then the end
   std::vector<Residual> residuals_;  // residuals ordered by line
 };
 

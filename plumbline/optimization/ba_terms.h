@@ -12,8 +12,8 @@
 
 namespace plumbline {
 
-// What bundle adjustment needs to know about each kind of landmark: its parameters, its residual,
-// and its place in the normal equations. Internal to bundle_adjuster.h.
+// Parameters, residual and part of the normal equations of each kind of landmark in bundle
+// adjustment. Internal to bundle_adjuster.h.
 
 struct BaPose {
   Rigid3 cam_from_world;
@@ -34,8 +34,8 @@ struct BaPoint {
   static constexpr int kDof = 3;
   using State = Eigen::Vector3d;
   using Term = PointTerm;
-  // Place is what residuals need of a state, View what their derivatives need. Both are computed
-  // once and serve all observations of the landmark.
+  // Place is the form of a state for residuals, View that for their derivatives. Both are computed
+  // once for all observations of the landmark.
   using Place = Eigen::Vector3d;
   using View = Eigen::Vector3d;
 
@@ -46,7 +46,7 @@ struct BaPoint {
     return term.disparity_weight > 0 ? huber.disparity : huber.point;
   }
   static int Dof(const Term& term) { return term.disparity_weight > 0 ? 3 : 2; }
-  // Returns the squared norm of the whitened residual; infinite where there is none.
+  // Returns the squared norm of the whitened residual; infinite if it is not defined.
   static double Chi2(const RectifiedCamera& camera,
                      const BaPose& pose,
                      const Place& place,
@@ -56,7 +56,8 @@ struct BaPoint {
   }
 
   using Target = BaTarget<kDof>;
-  // Adds an observation to the equations. Returns false and adds nothing where it has no residual.
+  // Adds an observation to the equations. Returns false and adds nothing if its residual is not
+  // defined.
   static bool Add(const RectifiedCamera& camera,
                   const BaPose& pose,
                   const View& view,
@@ -65,18 +66,18 @@ struct BaPoint {
                   const Target& target);
 };
 
-// A line in the world. It may have any scale, since residuals depend on moment : direction alone.
+// A line in the world, of any scale, since residuals depend on moment : direction alone.
 struct BaLinePlace {
   Eigen::Vector3d moment, direction;
 };
 
-// A line and how it moves with the parameters of its update.
+// A line and its derivative with respect to the parameters of its update.
 template <int kParameters>
 struct BaLineView : BaLinePlace {
   Eigen::Matrix<double, 6, kParameters> J;  // derivative of moment and direction
 };
 
-// What lines of all parameters have in common: two residuals in each image, the distances of the
+// Common part of lines of all parametrizations: two residuals in each image, the distances of the
 // measured ends from the projected line.
 struct BaMeasuredLine {
   using Term = LineTerm;
@@ -87,7 +88,7 @@ struct BaMeasuredLine {
   }
   static double Huber(const Term&, const HuberThresholds& huber) { return huber.line; }
   static int Dof(const Term&) { return 2; }
-  // Returns the squared norm of the whitened distances; infinite where the line has no projection.
+  // Returns the squared norm of the whitened distances; infinite if the line has no projection.
   static double Chi2(const RectifiedCamera& camera,
                      const BaPose& pose,
                      const Place& line,
@@ -132,7 +133,7 @@ struct BaLineInCamera {
   }
 };
 
-// Does the work of BaLine::Add for lines with any parameters.
+// Implements BaLine::Add for lines with any parametrization.
 template <int kDof>
 bool AddMeasuredLine(const RectifiedCamera& camera,
                      const BaPose& pose,

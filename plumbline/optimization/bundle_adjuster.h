@@ -16,8 +16,8 @@
 
 namespace plumbline {
 
-// Does what SolveLocalBa does, for any kind of line. Internal to bundle_adjustment.cc and the
-// laboratory, which compares other kinds of lines.
+// Implements SolveLocalBa for any kind of line. Internal to local_ba.cc and the laboratory, which
+// compares other kinds of lines.
 
 inline std::vector<BaPose> MakePoses(const BaProblem& problem) {
   std::vector<BaPose> poses(problem.poses.size());
@@ -50,8 +50,8 @@ std::vector<BaObservation<typename LineKind::Term>> LineObservationsOf(const BaP
 }
 
 // Levenberg-Marquardt over the poses, points and lines of a problem. The lines are given by the
-// states and observations of their kind. A line of the problem is one state, or several where its
-// ends are states of their own.
+// states and observations of their kind. A line of the problem is one state, or several if its ends
+// are states of their own.
 template <class LineKind>
 class BundleAdjuster {
  public:
@@ -82,22 +82,22 @@ class BundleAdjuster {
   static constexpr double kInitialLambda = 1e-4;
   static constexpr double kMinLambda = 1e-9;
   static constexpr double kMaxLambda = 1e10;
-  // Below this damping a step is nearly that of Gauss-Newton, so that a small gain means
+  // Below this damping a step is nearly a Gauss-Newton step, so that a small decrease means
   // convergence.
   static constexpr double kSmallLambda = 1;
 
   double Cost(const HuberThresholds& huber) {
     return points_.Cost(poses_, huber) + lines_.Cost(poses_, huber);
   }
-  // Linearizes and solves; returns false when the damped equations are not positive definite, or
-  // when stopped.
+  // Linearizes and solves; returns false if the damped equations are not positive definite, or when
+  // stopped.
   bool ComputeStep(const HuberThresholds& huber, double lambda);
   // Returns the cost of the trial state and sets expected_.
   double Try(const HuberThresholds& huber);
   void Accept();
   // Lowers cost_, which must be the cost under the same loss.
   BaTermination Optimize(const HuberThresholds& huber, double function_tolerance);
-  // Classifies all observations anew; returns whether that changed which of them are in use.
+  // Classifies all observations anew; returns true if that changed which of them are in use.
   bool Classify();
 
   const LocalBaOptions& options_;
@@ -106,7 +106,7 @@ class BundleAdjuster {
   BaLandmarks<BaPoint> points_;
   BaLandmarks<LineKind> lines_;
   SchurSolver solver_;
-  double expected_ = 0;  // decrease of the cost that the linear model expects
+  double expected_ = 0;  // decrease of the cost predicted by the linear model
   double cost_ = 0;
   int iterations_ = 0;
 };
@@ -147,7 +147,7 @@ template <class LineKind>
 BaTermination BundleAdjuster<LineKind>::Optimize(const HuberThresholds& huber,
                                                  double function_tolerance) {
   double lambda = kInitialLambda;
-  // Residuals carry rounding errors of about 1e-12 sigma, so that smaller costs mean nothing.
+  // Residuals carry rounding errors of about 1e-12 sigma, so that smaller costs are meaningless.
   const double rounding = 1e-22 * static_cast<double>(points_.used() + lines_.used());
   for (int i = 0; i < options_.max_iterations; ++i) {
     if (IsToStop(stop_)) return BaTermination::kStopped;

@@ -17,11 +17,11 @@ namespace plumbline {
 struct LocalBaOptions {
   int rounds = 2;           // rounds of solving, each followed by rejecting observations by chi2
   int max_iterations = 10;  // accepted and rejected steps in a round
-  // a round ends when a step lowers the cost by less than this part of it
+  // a round ends if a step lowers the cost by less than this fraction
   double function_tolerance = 1e-4;
-  // function_tolerance of the rounds before the last, whose purpose is to find outliers. Where one
-  // of these rounds changes no observation, the last round is next. 0: all rounds have
-  // function_tolerance, and none is left out.
+  // function_tolerance of the rounds before the last, whose purpose is to find outliers. If one of
+  // these rounds changes no observation, the last round is next. 0: all rounds use
+  // function_tolerance, and none is skipped.
   double rejection_tolerance = 0;
   bool robust = true;  // Huber loss (kHuberThresholds); false: plain squares
 };
@@ -42,14 +42,23 @@ void VisitFields(Visitor&& visit, LocalBaOptions& o) {
   visit("robust", o.robust, "use the Huber loss");
 }
 
-// Why the last round ended.
+constexpr auto FixedOptions(std::type_identity<LocalBaOptions>) {
+  return std::array{FixedOption{"robust_last_round", "true"},
+                    FixedOption{"huber_point", "2.4477"},
+                    FixedOption{"huber_disparity", "2.7955"},
+                    FixedOption{"huber_line", "2.4477"},
+                    FixedOption{"gate_scale", "1"},
+                    FixedOption{"initial_lambda", "1e-04"}};
+}
+
+// Reason for the end of the last round.
 enum class BaTermination {
   kConverged,      // the cost no longer falls
   kMaxIterations,  // the budget of the last round is used up
   kNoProgress,     // no step lowers the cost, whatever the damping
   kNotFinite,      // the input has NaN or infinite numbers; the result repeats the input
   kNothingToDo,    // no observation has a residual at the start
-  kStopped,        // stop said so; the state is that of the last accepted step
+  kStopped,        // stopped by `stop`; the state is that of the last accepted step
 };
 
 constexpr auto EnumNames(std::type_identity<BaTermination>) {
@@ -66,15 +75,14 @@ struct BaResult {
   std::vector<Rigid3> poses;  // cam_from_world; fixed poses are copied bit by bit
   std::vector<Eigen::Vector3d> points;
   std::vector<OrthonormalLine> lines;
-  // One entry per observation. It is false when chi2 exceeds its limit at the end, or when the
-  // point lies behind the camera (chi2 is then infinite).
+  // One entry per observation: false if chi2 exceeds its limit at the end, or if the point lies
+  // behind the camera (chi2 is then infinite).
   std::vector<bool> point_inliers;
   std::vector<bool> line_inliers;
   std::vector<double> point_chi2;
   std::vector<double> line_chi2;
-  // Half the sum of the loss over the observations in use. The initial cost is that at the start of
-  // the first round, where all observations with a residual are in use; the final cost is that at
-  // the end of the last round.
+  // Half the sum of the loss over the observations in use: initially at the start of the first
+  // round, with all observations that have a residual in use; finally at the end of the last round.
   double initial_cost = 0;
   double final_cost = 0;
   int iterations = 0;
@@ -82,14 +90,14 @@ struct BaResult {
   BaTermination termination = BaTermination::kNothingToDo;
 };
 
-// Returns a problem before anything is solved, with all observations as inliers and no chi2 known.
+// Returns the unsolved problem as a result, with all observations as inliers and chi2 unknown.
 BaResult InitialState(const BaProblem& problem);
 
-// Puts the poses and points of a problem where a solution of it has them, and leaves lines alone.
+// Copies the solved poses and points into a problem; its lines are unchanged.
 void TakePosesAndPoints(const BaResult& solved, BaProblem& problem);
 
-// Returns the result for a problem that is not solved because it has numbers that are not finite:
-// the input, with no observation as inlier and infinite chi2.
+// Returns the result for a problem with numbers that are not finite, which is not solved: the
+// input, without inliers and with infinite chi2.
 BaResult NotFinite(const BaProblem& problem);
 
 }  // namespace plumbline

@@ -6,11 +6,11 @@
 
 namespace plumbline {
 
-// Throws BugError where an observation names a pose, landmark or axis that the problem does not
-// have, or a parallel line has no positive sigma.
+// Throws BugError if an observation has an index of no pose, landmark or axis, or if a parallel
+// line has no positive sigma.
 void CheckIndices(const BaProblem& problem);
 
-// Whether all numbers of a problem are finite.
+// Returns true if all numbers of a problem are finite.
 bool IsFinite(const BaProblem& problem);
 
 }  // namespace plumbline

@@ -11,9 +11,9 @@
 
 namespace plumbline {
 
-// Cholesky factorization of a sparse symmetric positive definite matrix of square blocks, front by
-// front. Each front is a dense matrix that takes in what its children change, eliminates its pivots
-// and hands on the rest (Duff and Reid 1983). It is serial and sums in the order of the plan, so
+// Multifrontal Cholesky factorization of a sparse symmetric positive definite matrix of square
+// blocks. Each front is a dense matrix that adds the updates of its children, eliminates its pivots
+// and passes on the rest (Duff and Reid 1983). It is serial and sums in the order of the plan, so
 // that results repeat bit by bit.
 //
 //   kSize  rows of a block; there are instances for 6 (rigid motions) and 7 (similarities)
@@ -28,25 +28,24 @@ class BlockCholesky {
   // Makes the matrix zero.
   void Clear();
   // Sets block (row, column) and with it its mirror image. Both rows must be in one front. Of a
-  // block on the diagonal only the lower triangle is looked at.
+  // diagonal block only the lower triangle is read.
   void Set(int row, int column, const Block& block);
-  // Factorizes the matrix in place. Returns false where it is not positive definite, or when
-  // stopped (asked before each front). O(multiplications of the plan); memory: the factor, and the
-  // changes that wait to be handed on.
+  // Factorizes the matrix in place. Returns false if it is not positive definite, or when stopped
+  // (checked before each front). O(multiplications of the plan); memory: the factor, and pending
+  // updates.
   bool Factor(const StopCheck& stop = {});
   // Solves L L^T x = b in place. O(entries of L).
   void Solve(Eigen::VectorXd& x) const;
 
  private:
-  // The columns of the pivots in the dense matrix of a front. They become columns of L.
+  // Columns of the pivots in the dense matrix of a front. They become columns of L.
   struct Panel {
     Eigen::MatrixXd columns;
     std::vector<int> children;
-    std::vector<int> in_parent;  // place of each changed row among the parent's rows
+    std::vector<int> in_parent;  // place of each updated row among the parent's rows
   };
 
-  // Adds what a child changed to the columns of a front, and to the changes that the front hands
-  // on.
+  // Adds a child's update to the columns of a front, and to the update that the front passes on.
   static void TakeIn(const Eigen::MatrixXd& change,
                      const std::vector<int>& place,
                      Eigen::MatrixXd& columns,

@@ -7,14 +7,14 @@
 
 namespace plumbline {
 
-// Finds a camera pose from matches with points and lines of a known map.
+// Estimates a camera pose from matches with points and lines of a known map.
 //
 // Levenberg-Marquardt on the whitened residuals of residuals.h (eq. 13 for lines) with the left
-// perturbation exp([w, v]) T (eq. 20). After each round all matches, even those rejected before,
-// are classified by chi2 at 95 %: points with 2 degrees of freedom (3 with disparity), all
-// measurements of one line group together with 2 each. A point behind the camera is an outlier. The
-// initial pose may be wrong by tens of pixels, with 30 % of the matches wrong. What a point's own
-// covariance adds to its residual is computed at the initial pose (uncertain_point.h).
+// perturbation exp([w, v]) T (eq. 20). After each round all matches, even rejected ones, are
+// classified by chi2 at 95 %: points with 2 degrees of freedom (3 with disparity), all measurements
+// of one line group together with 2 each. A point behind the camera is an outlier. The initial pose
+// may be wrong by tens of pixels, with 30 % of the matches wrong. The contribution of a point's own
+// covariance to its residual is computed at the initial pose (uncertain_point.h).
 //
 //   problem   measurements in pixels, landmarks in the world, the initial pose
 //   returns   always a result; judge it by `converged` and the counts of inliers

@@ -15,10 +15,10 @@ namespace plumbline {
 struct PoseOnlyOptions {
   // Rounds of solving, each followed by classifying all matches anew.
   int rounds = 4;
-  // The first rounds, this many, use the Huber loss, the others plain squares.
+  // Number of first rounds with the Huber loss; the others use plain squares.
   int robust_rounds = 2;
   int max_iterations = 10;  // iterations in a round
-  // a round ends when a step would lower the cost by less than this
+  // a round ends if the expected decrease of the cost by a step is less than this
   double decrement_tolerance = 1e-4;
 };
 
@@ -45,8 +45,8 @@ struct PoseOnlyResult {
   int inlier_line_groups = 0;
   double cost = 0;     // half the sum of squared whitened residuals of inliers and prior
   int iterations = 0;  // sum over all rounds
-  // True when the last round met a tolerance, and inliers and prior fix all six degrees of freedom.
-  // When false, the pose is the best one found; it is finite if the input is.
+  // True if the last round met a tolerance, and inliers and prior determine all six degrees of
+  // freedom. If false, the pose is the best one found; it is finite if the input is.
   bool converged = false;
 };
 

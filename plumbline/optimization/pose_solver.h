@@ -20,11 +20,11 @@
 
 namespace plumbline {
 
-// Does what SolvePose does, for any residual of lines. Internal to pose_optimization.cc and the
-// laboratory, which compares another residual.
+// Implements SolvePose for any residual of lines. Internal to pose_only.cc and the laboratory,
+// which compares another residual.
 
-// Whether all six degrees of freedom are fixed: the information, scaled to a unit diagonal, is
-// regular.
+// Returns true if all six degrees of freedom are determined: the information, scaled to a unit
+// diagonal, is regular.
 inline bool IsRegular(const Matrix6d& information) {
   if (!(information.diagonal().minCoeff() > 0)) return false;
   const Vector6d scale = information.diagonal().cwiseSqrt().cwiseInverse();
@@ -45,13 +45,13 @@ class PoseSolver {
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  // Squared norm that stands in for that of a match in use without a residual (behind the camera),
-  // so that a step cannot gain by pushing points there.
+  // Squared norm assigned to a match in use without a residual (behind the camera), so that a step
+  // cannot gain by moving points there.
   static constexpr double kInvalidChi2 = 1e8;
   static constexpr double kMinLambda = 1e-8;
   static constexpr double kMaxLambda = 1e8;
-  // A round ends when a step lowers the cost by less than this part of it: what remains would move
-  // the pose by far less than its deviation.
+  // A round ends if a step lowers the cost by less than this fraction: the rest would move the pose
+  // by far less than its standard deviation.
   static constexpr double kCostTolerance = 1e-5;
 
   void Pack(const PoseProblem& problem);
@@ -60,15 +60,15 @@ class PoseSolver {
   void EvaluatePoints(const Rigid3& pose, const HuberThresholds& huber, PoseSums& eq);
   void EvaluateLines(const Rigid3& pose, const HuberThresholds& huber, PoseSums& eq);
   void AddPrior(const Rigid3& pose, PoseSums& eq) const;
-  // Runs Levenberg-Marquardt from pose_; returns whether it met a tolerance.
+  // Runs Levenberg-Marquardt from pose_; returns true if it met a tolerance.
   bool Optimize(const HuberThresholds& huber, int max_iterations);
   // Returns the chi2 of a point at pose_, whose rotation is R.
   double PointChi2Of(const PosePoint& point, const Eigen::Matrix3d& R) const;
   // Computes chi2 of all matches at pose_, unless it is known (after a rejected step it is not).
   void UpdateChi2();
-  // Brings a far-off pose near with a Huber threshold that follows the median residual.
+  // Improves a far-off pose with a Huber threshold that follows the median residual.
   void OptimizeCoarse();
-  // Sets which matches are in use by chi2; returns whether any changed.
+  // Decides by chi2 which matches are in use; returns true if any changed.
   bool Classify();
   double MedianNorm();
   static HuberThresholds Thresholds(double scale) {
@@ -86,7 +86,7 @@ class PoseSolver {
   std::vector<double> point_chi2_, line_chi2_, group_chi2_, group_limit_, scratch_;
   std::vector<char> point_used_, group_used_;
   Rigid3 pose_;
-  bool chi2_is_current_ = false;  // whether the chi2 are those at pose_
+  bool chi2_is_current_ = false;  // true if the chi2 are those at pose_
   int iterations_ = 0;
 };
 
@@ -103,7 +103,7 @@ void PoseSolver<Line>::Pack(const PoseProblem& problem) {
       points_.push_back({match.point_in_world, uncertain->term, uncertain->whitening});
     } else {
       // A match whose covariance has no term at the initial pose must not count as exact later. NaN
-      // keeps it from ever having a residual.
+      // ensures that it never has a residual.
       const bool exact = match.point_covariance.isZero(0);
       constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
       points_.push_back({exact ? match.point_in_world : Eigen::Vector3d::Constant(kNowhere),
@@ -187,8 +187,8 @@ void PoseSolver<Line>::EvaluateLines(const Rigid3& pose,
   }
 }
 
-// Adds the prior. The derivative of its deviation by the left perturbation is taken as the
-// identity, which holds up to the square of the deviation's angle.
+// Adds the prior. The derivative of its deviation with respect to the left perturbation is taken as
+// the identity, which holds up to the square of the deviation's angle.
 template <class Line>
 void PoseSolver<Line>::AddPrior(const Rigid3& pose, PoseSums& eq) const {
   const Vector6d deviation = LogSe3(pose * Inverse(prior_.cam_from_world));
@@ -242,8 +242,7 @@ bool PoseSolver<Line>::Optimize(const HuberThresholds& huber, int max_iterations
     A.diagonal() += lambda * eq.H.diagonal().cwiseMax(1e-12 * eq.H.diagonal().maxCoeff());
     const Vector6d step = -SolveSymmetric<6>(A, eq.g);
     if (!step.allFinite()) return false;
-    // The decrease of the cost that the linear model expects of the step, in units of squared
-    // sigmas.
+    // Decrease of the cost predicted by the linear model, in squared sigmas.
     const double expected = -0.5 * eq.g.dot(step);
     const bool is_small = expected <= options_.decrement_tolerance;
     const Rigid3 trial = RetractLeft(pose_, step);

@@ -12,7 +12,7 @@
 
 namespace plumbline {
 
-// Matches with landmarks that do not move, ready for use, and their part of the normal equations of
+// Matches with fixed landmarks, prepared for the solver, and their part of the normal equations of
 // the pose. Internal to pose_solver.h.
 
 struct PosePoint {
@@ -21,10 +21,10 @@ struct PosePoint {
   std::optional<Eigen::Matrix3d> whitening;  // for the residuals of an UncertainPointTerm
 };
 
-// The functions that PoseSolver needs of a match of a line.
+// Interface of a match of a line for PoseSolver.
 class PoseLine {
  public:
-  // The linearized residual in the camera that measured it.
+  // The linearized residual in the camera of the measurement.
   struct Linearization {
     LineLinearization at;
     Eigen::Vector3d direction, moment;
@@ -35,7 +35,7 @@ class PoseLine {
         direction_(match.line_in_world.direction),
         term_(MakeLineTerm(camera, match.measurement)) {}
 
-  // Linearizes at a pose with rotation R; returns false where there is no residual.
+  // Linearizes at a pose with rotation R; returns false if the residual is not defined.
   bool Linearize(const RectifiedCamera& camera,
                  const Rigid3& pose,
                  const Eigen::Matrix3d& R,
@@ -44,13 +44,13 @@ class PoseLine {
     out.moment = MomentInCamera(R, pose.translation, out.direction);
     return LinearizeLine(camera, term_, out.moment, out.at);
   }
-  // Returns the derivatives of the two residuals by the left perturbation of the pose.
+  // Returns the derivatives of the two residuals with respect to the left perturbation of the pose.
   std::pair<Vector6d, Vector6d> PoseRows(const Linearization& lin) const {
     return {LinePoseRow(lin.at.h0, lin.moment, lin.direction, term_.shift),
             LinePoseRow(lin.at.h1, lin.moment, lin.direction, term_.shift)};
   }
-  // Computes only the residuals, at the pose with rotation R and translation t; returns false where
-  // there are none.
+  // Computes only the residuals, at the pose with rotation R and translation t; returns false if
+  // they are not defined.
   bool Distances(const RectifiedCamera& camera,
                  const Eigen::Matrix3d& R,
                  const Eigen::Vector3d& t,
@@ -109,7 +109,7 @@ inline void AddPoint(const PointLinearization& a,
   eq.g.tail<3>() += q;
 }
 
-// Adds a point with a general G, in which no entry is known to be zero.
+// Adds a point with a general G, without known zeros.
 inline void AddPoint(const Eigen::Vector3d& r,
                      const Eigen::Matrix3d& G,
                      const Eigen::Vector3d& p,

@@ -9,12 +9,12 @@
 
 namespace plumbline {
 
-// A line in the world with all that the residuals of its measurements need of it, computed once.
+// A line in the world, prepared once for the residuals of all its measurements.
 struct PreparedLine {
   explicit PreparedLine(const OrthonormalLine& line);
 
   Vector6d homogeneous;  // moment and direction
-  // Derivative of moment and direction by the orthonormal update.
+  // Derivative of moment and direction with respect to the orthonormal update.
   Eigen::Matrix<double, 6, 4> J_orthonormal;
 };
 

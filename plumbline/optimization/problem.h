@@ -14,9 +14,9 @@
 
 namespace plumbline {
 
-// A pixel measurement of a point in the left camera, with its disparity where one was measured.
-// Residual (px - projection) / sigma_px and, as a third row, (disparity - predicted) / its sigma:
-// the disparity, not the right column, because its error is independent of the left column's.
+// A pixel measurement of a point in the left camera, with its disparity if measured. Residual (px -
+// projection) / sigma_px and, as a third row, (disparity - predicted) / its sigma: the disparity,
+// not the right column, because its error is independent of the left column's.
 struct PointMeasurement {
   Eigen::Vector2d px = Eigen::Vector2d::Zero();
   double sigma_px = 1;
@@ -30,17 +30,17 @@ struct PointMeasurement {
 struct LineMeasurement {
   Segment2 segment;
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
-  int camera = 0;  // camera of the pair that measured it: 0 the left (or only) one, 1 the right one
+  int camera = 0;  // camera of the pair: 0 the left (or only) one, 1 the right one
 };
 
-// Bundle adjustment as plain data: nothing here knows the map.
+// Bundle adjustment as plain data, independent of the map.
 struct BaProblem {
-  // The pose of a camera at the start.
+  // Initial pose of a camera.
   struct Pose {
     Rigid3 cam_from_world;
     bool fixed = false;
-    // Whether it comes soon after the pose before it in time (FixInconsistentPoses); SolveLocalBa
-    // does not use it.
+    // True if it comes soon after the previous pose in time (FixInconsistentPoses); not used by
+    // SolveLocalBa.
     bool follows = true;
   };
   // An observation of a point; indices into `poses` and `points`.
@@ -69,34 +69,33 @@ struct BaProblem {
   std::vector<OrthonormalLine> lines;   // in the world
   std::vector<PointObservation> point_observations;
   std::vector<LineObservation> line_observations;
-  std::vector<Eigen::Vector3d> axes;  // unit vectors in the world; they do not move
+  std::vector<Eigen::Vector3d> axes;  // constant unit vectors in the world
   std::vector<ParallelLine> parallel_lines;
 };
 
-// What is known of a pose beforehand: it is normally distributed about `cam_from_world`, with the
-// information of the left perturbation [rotation, translation]. Zero information means that nothing
-// is known.
+// Prior of a pose: normally distributed about `cam_from_world`, with the information of the left
+// perturbation [rotation, translation]. Zero information: no prior.
 struct PosePrior {
   Rigid3 cam_from_world;
   Matrix6d information = Matrix6d::Zero();
 };
 
-// A camera pose to be found from landmarks that do not move, by SolvePose (pose_optimization.h).
+// A camera pose to be estimated from fixed landmarks by SolvePose (pose_only.h).
 struct PoseProblem {
-  // A point of the map and where the frame shows it.
+  // A point of the map and its measurement in the frame.
   struct PointMatch {
     Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
     PointMeasurement measurement;
-    // Covariance of the point in the world [map unit^2], in addition to that of the measurement;
-    // zero where the place counts as exact.
+    // Covariance of the point in the world [map scale^2], in addition to that of the measurement;
+    // zero if the position counts as exact.
     Eigen::Matrix3d point_covariance = Eigen::Matrix3d::Zero();
   };
-  // A line of the map and where the frame shows it.
+  // A line of the map and its measurement in the frame.
   struct LineMatch {
     PluckerLine line_in_world;
     LineMeasurement measurement;
     int group = 0;  // measurements of one landmark share a group and are kept or rejected together
-    // Ends, in the world, of the part of the line that counts; eq. 13 does not use them.
+    // Ends, in the world, of the part of the line in use; eq. 13 does not need them.
     Segment3 ends = {};
   };
 

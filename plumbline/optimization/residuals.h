@@ -15,7 +15,7 @@
 
 namespace plumbline {
 
-// A point nearer to the image plane than this [map units], or behind it, has no residual.
+// Least depth [map scale] of a point with a residual.
 inline constexpr double kMinDepth = 1e-6;
 
 // Residual of a point measurement, whitened, with its derivatives.
@@ -23,20 +23,20 @@ struct PointResidual {
   int rows = 2;  // 3 with disparity; unused rows are zero
   Eigen::Vector3d r =
       Eigen::Vector3d::Zero();         // column, row, disparity: (measured - predicted) / sigma
-  Eigen::Matrix<double, 3, 6> J_pose;  // derivative by the pose, exp([w, v]) T, eq. 20
-  Eigen::Matrix3d J_point;             // derivative by the point in the world
+  Eigen::Matrix<double, 3, 6> J_pose;  // derivative with respect to the pose, exp([w, v]) T, eq. 20
+  Eigen::Matrix3d J_point;             // derivative with respect to the point in the world
 };
 
 // Residual of a line measurement, whitened by the Cholesky factor of the inverse covariance.
 struct LineResidual {
   Eigen::Vector2d r = Eigen::Vector2d::Zero();  // signed distances of start and end (eq. 13)
   Eigen::Matrix<double, 2, 6> J_pose;
-  // Derivative by the orthonormal update (section 3.1, eq. 16-19 corrected).
+  // Derivative with respect to the orthonormal update (section 3.1, eq. 16-19 corrected).
   Eigen::Matrix<double, 2, 4> J_line;
 };
 
 // Returns measured minus projected position of a point, in units of its standard deviations. The
-// disparity row predicts fx * baseline / z. Returns nullopt when the point is not in front of the
+// disparity row predicts fx * baseline / z. Returns nullopt if the point is not in front of the
 // camera.
 std::optional<PointResidual> EvaluatePoint(const RectifiedCamera& camera,
                                            const Rigid3& cam_from_world,
@@ -45,13 +45,13 @@ std::optional<PointResidual> EvaluatePoint(const RectifiedCamera& camera,
 
 // Returns the distances of the measured end points from the projected infinite line (eq. 13; eq. 16
 // with the divisor l1^2 + l2^2). In the right camera the moment is m + (-baseline, 0, 0) x d.
-// Returns nullopt when the line passes through the camera centre or projects to infinity.
+// Returns nullopt if the line passes through the camera centre or projects to infinity.
 std::optional<LineResidual> EvaluateLine(const RectifiedCamera& camera,
                                          const Rigid3& cam_from_world,
                                          const OrthonormalLine& line_in_world,
                                          const LineMeasurement& measurement);
 
-// Returns the residual of a line that is given in orthonormal form.
+// Returns the residual of a line in orthonormal form.
 std::optional<LineResidual> EvaluateLine(const RectifiedCamera& camera,
                                          const Rigid3& cam_from_world,
                                          const PreparedLine& line_in_world,
@@ -63,10 +63,10 @@ std::optional<Eigen::Vector2d> LineDistances(const RectifiedCamera& camera,
                                              const PreparedLine& line_in_world,
                                              const LineMeasurement& measurement);
 
-// The parts below are for the inner loops of the solvers. Measurements are prepared once.
-// Derivatives are those by the landmark in the camera frame, from which the others follow.
+// Functions for the inner loops of the solvers. Measurements are prepared once. Derivatives are
+// with respect to the landmark in the camera frame; the others follow from them.
 
-// A point measurement ready for use. Throws BugError when a sigma is not positive.
+// A prepared point measurement. Throws BugError if a sigma is not positive.
 struct PointTerm {
   double u = 0, v = 0;
   double weight = 1;  // 1 / sigma_px
@@ -89,7 +89,7 @@ inline Eigen::Matrix3d PointJacobian(const PointLinearization& at) {
   return J;
 }
 
-// Returns false when the point is not in front of the camera; `out` is then not set.
+// Returns false if the point is not in front of the camera; `out` is then not set.
 inline bool LinearizePoint(const RectifiedCamera& camera,
                            const PointTerm& term,
                            const Eigen::Vector3d& point_in_cam,
@@ -113,8 +113,8 @@ inline bool LinearizePoint(const RectifiedCamera& camera,
   return true;
 }
 
-// Returns the squared norm of the whitened residual alone; nullopt when the point is not in front
-// of the camera.
+// Returns the squared norm of the whitened residual alone; nullopt if the point is not in front of
+// the camera.
 inline std::optional<double> PointChi2(const RectifiedCamera& camera,
                                        const PointTerm& term,
                                        const Eigen::Vector3d& point_in_cam) {
@@ -127,18 +127,18 @@ inline std::optional<double> PointChi2(const RectifiedCamera& camera,
   return ru * ru + rv * rv + rd * rd;
 }
 
-// Whether a covariance of a line measurement can be used, which needs a Cholesky factor.
+// Returns true if a covariance of a line measurement is valid: it has a Cholesky factor.
 inline bool IsPositiveDefinite(const Eigen::Matrix2d& S) {
   return S(0, 0) > 0 && S(1, 1) - S(1, 0) * S(1, 0) / S(0, 0) > 0;
 }
 
-// A line measurement ready for use. Throws BugError when its covariance is not positive definite.
+// A prepared line measurement. Throws BugError if its covariance is not positive definite.
 struct LineTerm {
   Eigen::Vector2d start = Eigen::Vector2d::Zero();
   Eigen::Vector2d end = Eigen::Vector2d::Zero();
   // Lower triangle of the inverse Cholesky factor of the covariance: whitened residual = W r.
   double w00 = 1, w10 = 0, w11 = 1;
-  double shift = 0;  // x of the left camera's centre in the camera that measured: 0 or -baseline
+  double shift = 0;  // x of the left camera's centre in the measuring camera: 0 or -baseline
 };
 LineTerm MakeLineTerm(const RectifiedCamera& camera, const LineMeasurement& measurement);
 
@@ -149,8 +149,8 @@ struct LineLinearization {
   Eigen::Vector3d h1 = Eigen::Vector3d::Zero();  // gradient of the second row
 };
 
-// Computes the whitened distances (eq. 13). `moment`, of any scale, is in the frame of the camera
-// that measured.
+// Computes the whitened distances (eq. 13). `moment`, of any scale, is in the frame of the
+// measuring camera.
 inline bool WhitenedLineDistances(const RectifiedCamera& camera,
                                   const LineTerm& term,
                                   const Eigen::Vector3d& moment,
@@ -165,7 +165,7 @@ inline bool WhitenedLineDistances(const RectifiedCamera& camera,
   return true;
 }
 
-// Returns false when the image line is not defined; `out` is then not set.
+// Returns false if the image line is not defined; `out` is then not set.
 inline bool LinearizeLine(const RectifiedCamera& camera,
                           const LineTerm& term,
                           const Eigen::Vector3d& moment,
@@ -193,9 +193,10 @@ inline bool LinearizeLine(const RectifiedCamera& camera,
   return true;
 }
 
-// Returns the row of the derivative by exp([w, v]) T of a residual with gradient h at the moment
-// (eq. 20). A turn and a shift of the left camera change its moment m and direction d by w x m + v
-// x d and w x d; the right camera's moment is m + shift e_x x d. `moment` is that of LinearizeLine.
+// Returns the row of the derivative with respect to exp([w, v]) T of a residual with gradient h at
+// the moment (eq. 20). A rotation and translation of the left camera change its moment m and
+// direction d by w x m + v x d and w x d; the right camera's moment is m + shift e_x x d. `moment`
+// is that of LinearizeLine.
 inline Vector6d LinePoseRow(const Eigen::Vector3d& h,
                             const Eigen::Vector3d& moment,
                             const Eigen::Vector3d& direction,

@@ -14,7 +14,8 @@ inline double HuberLoss(double s, double k) {
   return s <= k * k ? s : 2 * k * std::sqrt(s) - k * k;
 }
 
-// Returns the derivative of HuberLoss by s: the weight of the residual in the normal equations.
+// Returns the derivative of HuberLoss with respect to s: the weight of the residual in the normal
+// equations.
 inline double HuberWeight(double s, double k) { return s <= k * k ? 1.0 : k / std::sqrt(s); }
 
 // Thresholds of the Huber loss on the Mahalanobis norm, by kind of residual.
@@ -24,8 +25,8 @@ struct HuberThresholds {
   double line = std::numeric_limits<double>::infinity();
 };
 
-// Where bundle adjustment and pose estimation leave plain squares: at the square roots of the
-// limits of chi2 at 95 % for two, three and two degrees of freedom. Larger residuals are not noise.
+// Huber thresholds of bundle adjustment and pose estimation: the square roots of the 95 % quantiles
+// of chi2 with two, three and two degrees of freedom. Larger residuals are not noise.
 inline constexpr HuberThresholds kHuberThresholds{
     .point = 2.4477, .disparity = 2.7955, .line = 2.4477};
 

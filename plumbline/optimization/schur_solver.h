@@ -29,15 +29,15 @@ struct LandmarkEquations {
   Eigen::Matrix<double, kDof, 1> g = Eigen::Matrix<double, kDof, 1>::Zero();
 };
 
-// The off-diagonal block w J_pose^T J_landmark between a landmark and one free pose.
+// Off-diagonal block w J_pose^T J_landmark between a landmark and one free pose.
 template <int kDof>
 struct Coupling {
   int pose = 0;  // index among the free poses
   Eigen::Matrix<double, 6, kDof> W = Eigen::Matrix<double, 6, kDof>::Zero();
 };
 
-// Where an observation adds its part of the normal equations. `pose` and `W` are null for a fixed
-// pose.
+// Targets to which an observation adds its part of the normal equations. `pose` and `W` are null
+// for a fixed pose.
 template <int kDof>
 struct BaTarget {
   LandmarkEquations<kDof>& landmark;
@@ -46,7 +46,7 @@ struct BaTarget {
 };
 
 // Adds w J^T J and w J^T r of an observation with two residuals r. c0 and c1 are the rows of the
-// landmark's J; `pose_rows` gives those of the pose as a pair and is called where the pose is free.
+// landmark's J; `pose_rows` returns those of the pose as a pair and is called only for a free pose.
 template <int kDof, class PoseRows>
 void AddTwoRows(double w,
                 const Eigen::Vector2d& r,
@@ -73,7 +73,7 @@ template <int kDof>
 struct EliminatedLandmark {
   Eigen::Matrix<double, kDof, kDof> L = Eigen::Matrix<double, kDof, kDof>::Zero();
   Eigen::Matrix<double, kDof, 1> y = Eigen::Matrix<double, kDof, 1>::Zero();
-  bool regular = false;  // false: the landmark stays where it is in this step
+  bool regular = false;  // false: the landmark does not move in this step
 
   // Sets L, y and `regular` from V + lambda diag(V) and g.
   bool Factor(const LandmarkEquations<kDof>& equations, double lambda);
@@ -90,28 +90,28 @@ struct EliminatedLandmark {
 // Damping adds lambda times the diagonal (Marquardt), which makes a step independent of the units
 // of the parameters. Sums run in the order of the calls, so results repeat bit by bit.
 //
-// Up to 200 free poses the system is solved as a dense one. With more, only blocks that are not
-// zero are kept, and the poses are eliminated in an order that fills few other blocks
-// (PlanElimination). Time and memory then grow with the number of poses where these share landmarks
-// with those near them, even where a path comes back to places it has been to.
+// Up to 200 free poses the system is solved as a dense one. Beyond that, only nonzero blocks are
+// stored, and the poses are eliminated in an order with little fill-in (PlanElimination). Time and
+// memory then grow linearly with the number of poses if these share landmarks with neighbours only,
+// even for paths with revisits.
 class SchurSolver {
  public:
   explicit SchurSolver(int free_poses);
 
-  // Empties the equations.
+  // Clears the equations.
   void Reset();
   PoseEquations& pose(int index) { return poses_[static_cast<std::size_t>(index)]; }
 
   // Eliminates one landmark. `couplings` must be ordered by pose, with each pose at most once; on
-  // return they hold Z. O(couplings squared); allocates where, of more than 200 poses, two share a
+  // return they hold Z. O(couplings squared); allocates if, of more than 200 poses, two share a
   // landmark for the first time.
   template <int kDof>
   EliminatedLandmark<kDof> Eliminate(const LandmarkEquations<kDof>& landmark,
                                      double lambda,
                                      std::span<Coupling<kDof>> couplings);
 
-  // Solves for the steps of the poses. Returns false when the damped system is not positive
-  // definite, and when stopped.
+  // Solves for the steps of the poses. Returns false if the damped system is not positive definite,
+  // and when stopped.
   bool Solve(double lambda, const StopCheck& stop = {});
   Eigen::Ref<const Vector6d> step(int index) const { return step_.segment<6>(6 * index); }
 
@@ -121,7 +121,7 @@ class SchurSolver {
                                               std::span<const Coupling<kDof>> couplings) const;
 
  private:
-  // Adds Z Z^T by 2x2 blocks, only in the lower triangle, which is all that is read.
+  // Adds Z Z^T by 2x2 blocks, to the lower triangle only, since nothing else is read.
   template <int kDof>
   static void AddToLower(const Eigen::Matrix<double, 6, kDof>& Z, Matrix6d& sum) {
     sum.leftCols<2>().noalias() += Z * Z.template topRows<2>().transpose();

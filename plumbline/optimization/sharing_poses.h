@@ -9,8 +9,7 @@
 namespace plumbline {
 
 // Returns for each pose of a problem the earlier poses that share a point or a line with it: the
-// blocks of the equations that are left once the landmarks are eliminated. When stopped, the
-// pattern lacks poses and is of no use.
+// nonzero blocks of the reduced camera system. When stopped, the pattern is incomplete and useless.
 //
 //   cost  O(sum over the landmarks of their observations squared); memory in proportion to the
 //         observations and the pairs

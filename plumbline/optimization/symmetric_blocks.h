@@ -11,20 +11,20 @@
 
 namespace plumbline {
 
-// The lower triangle of a symmetric matrix of 6 x 6 blocks. A small matrix is kept whole; of a
-// large one, the blocks on the diagonal and those that were asked for are kept.
+// The lower triangle of a symmetric matrix of 6 x 6 blocks. A small matrix is stored whole; of a
+// large one, the diagonal blocks and those accessed by At.
 class SymmetricBlocks {
  public:
   SymmetricBlocks(int rows, bool whole);
 
   bool whole() const { return whole_; }
-  // Returns the number of blocks that are kept, those on the diagonal included.
+  // Returns the number of stored blocks, including those on the diagonal.
   std::size_t count() const { return blocks_.size(); }
-  // Sets all blocks to zero; they stay in the matrix.
+  // Sets all blocks to zero; they remain stored.
   void SetZero() { std::fill(blocks_.begin(), blocks_.end(), Matrix6d::Zero()); }
 
-  // Returns the block at row >= column >= 0, to be written to; it is zero where it was not asked
-  // for before. Valid until the next call.
+  // Returns the block at row >= column >= 0 for writing; zero at its first access. Valid until the
+  // next call.
   Matrix6d& At(int row, int column) {
     Row& r = rows_[static_cast<std::size_t>(row)];
     if (column < r.first) Extend(column, r);
@@ -36,8 +36,8 @@ class SymmetricBlocks {
     return blocks_[static_cast<std::size_t>(rows_[static_cast<std::size_t>(row)].places.back())];
   }
 
-  // Calls visit(column, block) for the kept blocks of a row, ordered by column, except the one on
-  // the diagonal.
+  // Calls visit(column, block) for the stored blocks of a row left of the diagonal, ordered by
+  // column.
   template <class Visit>
   void ForEachLeft(int row, const Visit& visit) const {
     const Row& r = rows_[static_cast<std::size_t>(row)];
@@ -51,7 +51,7 @@ class SymmetricBlocks {
  private:
   struct Row {
     int first = 0;
-    // Index in blocks_ of each column from `first` to the diagonal; -1 where there is none.
+    // Index in blocks_ of each column from `first` to the diagonal; -1 if not stored.
     std::vector<int> places;
   };
 

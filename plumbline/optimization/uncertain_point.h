@@ -13,7 +13,7 @@
 
 namespace plumbline {
 
-// A measurement of a point whose place has a covariance.
+// A measurement of a point whose position has a covariance.
 struct UncertainPointTerm {
   PointTerm term;             // its weights are one, so that residuals are in pixels
   Eigen::Matrix3d whitening;  // whitens these residuals; lower triangular
@@ -21,10 +21,10 @@ struct UncertainPointTerm {
 
 // Returns the term of a point measurement at the given pose. The covariance of the residual is that
 // of the measurement plus that of the point's projection, S = diag(sigma^2) + J Sigma J^T; its
-// inverse Cholesky factor whitens. Returns nullopt when the point is not in front of the camera, or
-// so near that S is singular to working precision, and where the point has no covariance (zero).
+// inverse Cholesky factor whitens. Returns nullopt if the point has no covariance (zero), is not in
+// front of the camera, or is so near that S is singular to working precision.
 //
-//   point_covariance  of the place in the world, map units squared; positive semidefinite
+//   point_covariance  of the position in the world, map scale squared; positive semidefinite
 std::optional<UncertainPointTerm> MakeUncertainPointTerm(const RectifiedCamera& camera,
                                                          const Rigid3& cam_from_world,
                                                          const Eigen::Vector3d& point_in_world,
@@ -32,7 +32,7 @@ std::optional<UncertainPointTerm> MakeUncertainPointTerm(const RectifiedCamera& 
                                                          const PointMeasurement& measurement);
 
 // Returns residual and derivatives of a match at a pose, whitened with the covariance of
-// measurement and point there. Returns nullopt when the point is not in front of the camera, or so
+// measurement and point there. Returns nullopt if the point is not in front of the camera, or so
 // near that its covariance is singular to working precision.
 std::optional<PointResidual> EvaluateMatch(const RectifiedCamera& camera,
                                            const Rigid3& cam_from_world,
