@@ -12,42 +12,42 @@
 
 namespace plumbline {
 
-// What a point tells about the pose: the derivatives of its whitened residuals (2, or 3 with a
-// disparity) by the left perturbation exp([rotation, translation]).
+// Linearized point for the pose: the derivatives of its whitened residuals (2, or 3 with a
+// disparity) with respect to the left perturbation exp([rotation, translation]).
 using PointRows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, 3, 6>;
 
 struct ChosenFeatures {
-  std::vector<bool> points;    // whether each point is used
-  std::vector<LineCut> lines;  // LineCut::used, and how each line is cut
+  std::vector<bool> points;    // true for each point in use
+  std::vector<LineCut> lines;  // LineCut::used, and the cut of each line
 };
 
-// Returns the `budget` features, points and lines together, from which the pose is best known. This
-// is the joint problem that the second paper names for future work (section 7).
+// Returns the `budget` features, points and lines together, that maximize the pose information: the
+// joint problem that the second paper names as future work (section 7).
 //
-// How: features are added greedily by their gain of log det (eq. 7), starting from
+// Features are added greedily by their gain of log det (eq. 7), starting from
 // problem.other_information alone. The gain of a line is that of its best cut (with methods none
-// and drop that of the whole line; drop leaves its lines out beforehand). No gain grows when other
-// features are chosen first, since log det is submodular; that holds for the best over all cuts of
-// a line, too. Only the feature with the best earlier gain is therefore looked at anew, until it
-// stays the best (lazy greedy; Minoux 1978), which gives the choice of looking at all of them.
-// Afterwards greedy_sweeps and joint cut the chosen lines again. The printed information does not
-// add up feature by feature, so that the choice then uses the independent one.
+// and drop that of the whole line; drop removes its lines beforehand). Gains do not grow as other
+// features are chosen, since log det is submodular; that also holds for the best over all cuts of a
+// line. Only the feature with the best earlier gain is therefore evaluated again, until it stays
+// the best (lazy greedy; Minoux 1978), with the same result as evaluating all of them. Afterwards
+// greedy_sweeps and joint cut the chosen lines again. The printed information is not additive over
+// features, so that the choice then uses the independent one.
 //
-// Everything is chosen where the budget is not less than the number of features, and cut as by
-// CutLines. Deterministic: of equal gains points come first, then the order given.
+// If the budget is not less than the number of features, all are chosen, and cut as by CutLines.
+// Deterministic: of equal gains points come first, then the given order.
 //   cost: 40 of 200 points and 60 lines 0.7 ms, with greedy cuts 1.2 ms
 ChosenFeatures ChooseFeatures(const CuttingProblem& problem,
                               std::span<const PointRows> points,
                               std::size_t budget,
                               const CuttingOptions& options);
 
-// Cuts the used lines of a choice anew, as by CutLines, with its points as the constant part.
+// Cuts the chosen lines again, as by CutLines, with the chosen points as the constant part.
 void CutChosen(const CuttingProblem& problem,
                std::span<const PointRows> points,
                const CuttingOptions& options,
                ChosenFeatures& choice);
 
-// Returns the sum of rows^T rows over the points that are used (all points where `used` is empty).
+// Returns the sum of rows^T rows over the points in use (all points if `used` is empty).
 Matrix6d SumPoints(std::span<const PointRows> points, const std::vector<bool>& used = {});
 
 }  // namespace plumbline

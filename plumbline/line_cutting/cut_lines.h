@@ -8,15 +8,15 @@
 
 #include <Eigen/Core>
 
-// Good line cutting: for the pose only the piece of each 3D line is used that tells most about it
-// (Zhao and Vela, ECCV 2018, section 4). docs/methods/line-cutting.md has the derivation and what
-// is not right in print.
+// Good line cutting: pose estimation uses only the most informative piece of each 3D line (Zhao and
+// Vela, ECCV 2018, section 4). docs/methods/line-cutting.md has the derivation and the errors of
+// the paper.
 namespace plumbline {
 
 // Returns cuts for all lines, in their order.
 //
-// What the caller does:
-//   1. At the predicted pose, put lines with a match into the camera's frame; leave out those with
+// Use:
+//   1. At the predicted pose, transform matched lines into the camera's frame; drop those with
 //      an end at z <= 1e-6 m or a projection shorter than a few pixels.
 //   2. Give each end a covariance (CovarianceFromDisparity, CovarianceFromInverseDepth), each line
 //      its measured image line and the noise of that line, and the problem the information of the
@@ -27,30 +27,29 @@ namespace plumbline {
 //      to ImageRatio(...) of the measured segment, oriented as the 3D one.
 //      Weigh them equally (lines.weighting none), or by CutWeight(...). The measurement's own
 //      weights of whole lines do not apply to cut points.
-//   4. Cut again only where the pose has moved much: the cuts depend on it weakly.
+//   4. Cut again only after large motions: the cuts depend weakly on the pose.
 //
-// How: gradient ascent on log det of the pose information (eq. 7) with its analytic gradient. Each
-// single line is started from full length and from either end (section 5.1); the joint search is
-// that of CuttingMethod. sigma_px is a floor: without it a line whose depth error falls along the
-// viewing ray would be infinitely informative. A direction of the pose that nothing fixes has
+// Method: gradient ascent on log det of the pose information (eq. 7) with its analytic gradient.
+// Each single line is started from full length and from either end (section 5.1); for the joint
+// search see CuttingMethod. sigma_px is a floor: without it a line whose depth error lies along the
+// viewing ray would be infinitely informative. Undetermined directions of the pose have
 // kPriorInformation. Fewer than three lines have no printed information; they stay whole.
 //
-// options.budget is not used here: where a run has one, it chooses points and lines together.
+// options.budget is not used here: with a budget, a run chooses points and lines together.
 //
 // In the chosen information a cut is never worse than full length. Deterministic; greedy depends on
-// the order of the lines. Throws BugError where an end of a line has z <= 1e-6 m, or a sigma_px is
-// not positive.
+// the order of the lines. Throws BugError if an end of a line has z <= 1e-6 m, or a sigma_px is not
+// positive.
 //   cost: 60 lines 0.1 ms with greedy and independent; correlated twice, printed 25 times that
 std::vector<LineCut> CutLines(const CuttingProblem& problem, const CuttingOptions& options);
 
 // Returns the weight of the two residuals of a cut line, the distances of its cut points from the
-// measured image line, in their order. With the gradient g of a residual by its cut point and the
-// covariance Sigma(a) of that point, (1 - a)^2 Sigma_start + a^2 Sigma_end:
+// measured image line, in their order. With the gradient g of a residual with respect to its cut
+// point and the covariance Sigma(a) of that point, (1 - a)^2 Sigma_start + a^2 Sigma_end:
 //   independent  diag(1 / v), v = g^T Sigma(a) g + sigma_px^2
-//   correlated   the inverse of the 2 x 2 covariance of the residuals, whose points are made of the
-//                same ends and compared with the same image line; where both points are one, each
-//                counts half
-//   printed      diag(g^T Sigma(a)^-1 g), which is no weight that a solver could use
+//   correlated   the inverse of the 2 x 2 covariance of the residuals, whose points share the ends
+//                and the image line; if both points coincide, each counts half
+//   printed      diag(g^T Sigma(a)^-1 g), which no solver can use as a weight
 Eigen::Matrix2d CutWeight(const RectifiedCamera& camera,
                           const CuttableLine& line,
                           const LineCut& cut,

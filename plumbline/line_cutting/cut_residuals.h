@@ -10,14 +10,15 @@
 
 namespace plumbline {
 
-// The residual of one cut point, in pixels: its distance from the measured image line (second
-// paper, eq. 1), with derivatives.
+// Residual of one cut point, in pixels: its distance from the measured image line (second paper,
+// eq. 1), with derivatives.
 struct CutResidual {
   double r = 0;
-  Eigen::Vector3d gradient;  // derivative by the point in the camera frame
-  // Derivative by the left perturbation exp([w, v]): gradient^T H_x.
+  Eigen::Vector3d gradient;  // derivative with respect to the point in the camera frame
+  // Derivative with respect to the left perturbation exp([w, v]): gradient^T H_x.
   Vector6d pose_row;
-  Eigen::Vector3d gradient_by_ratio;  // derivative of `gradient` by the ratio of the cut
+  // derivative of `gradient` with respect to the ratio of the cut
+  Eigen::Vector3d gradient_by_ratio;
   Vector6d pose_row_by_ratio;
 };
 
@@ -29,7 +30,8 @@ Eigen::Matrix3d InterpolatedCovariance(const CuttableLine& line, double ratio);
 // The two residuals of a cut line. Its information about the pose is rows^T weight rows.
 struct CutResiduals {
   Eigen::Matrix<double, 2, 6> rows;
-  Eigen::Matrix<double, 2, 6> rows_by_ratio;  // derivative of row k by the ratio of point k
+  // derivative of row k with respect to the ratio of point k
+  Eigen::Matrix<double, 2, 6> rows_by_ratio;
   Eigen::Matrix2d weight;
   std::array<Eigen::Matrix2d, 2> weight_by_ratio;
 };
@@ -37,10 +39,9 @@ struct CutResiduals {
 // Computes the residuals with the weight
 //   independent  diag(1 / v), v = g^T Sigma(a) g + sigma_px^2
 //   printed      diag(g^T Sigma(a)^-1 g): the middle of eq. 5, see PoseInformation for the rest
-//   correlated   inverse of the covariance of the two residuals, which comes from the ends that
-//                both points are made of, and from the measured image line, whose ends have
-//                sigma_px each. Where both points are the same there is only one residual: each
-//                then counts half.
+//   correlated   inverse of the covariance of the two residuals, which comes from the common ends
+//                of both points, and from the measured image line, whose ends have sigma_px each.
+//                If both points coincide there is only one residual: each then counts half.
 CutResiduals EvaluateCut(const RectifiedCamera& camera,
                          const CuttableLine& line,
                          const LineCut& cut,

@@ -14,30 +14,30 @@
 
 #include <Eigen/Core>
 
-// The input and the result of good line cutting (Zhao and Vela, ECCV 2018; cut_lines.h), and its
-// options. Equations are those of that paper, which descriptions of options call the second paper.
+// Input, result and options of good line cutting (Zhao and Vela, ECCV 2018; cut_lines.h). Equations
+// are those of that paper, called the second paper in descriptions of options.
 namespace plumbline {
 
-// How the cuts of all lines are found.
+// Search for the cuts of all lines.
 enum class CuttingMethod {
   kNone,          // all lines keep their full length
   kGreedy,        // Algorithm 1: one line after the other, once
   kGreedySweeps,  // Algorithm 1 again until nothing changes
   kJoint,         // all ratios at once, gradient ascent from full length
-  kDrop,          // the most uncertain lines are left out, the others stay whole
+  kDrop,          // drops the most uncertain lines, the others stay whole
 };
-// How the pose information, which cutting maximizes, counts the two cut points of a line.
+// Pose information of the two cut points of a line, which cutting maximizes.
 enum class CuttingInformation {
-  // J^T W J: the two cut points count as independent, as in the paper.
+  // J^T W J: the two cut points are independent, as in the paper.
   kIndependent,
   kPrinted,  // eq. 5 to the letter
   // J^T C^-1 J with the covariance between the cut points; cutting then changes nothing.
   kCorrelated,
 };
-// How well the ends of a line count as known where lines are cut.
+// Covariance of the ends of a line for cutting.
 enum class CuttingEnds {
-  kLandmark,  // as the information of the line says
-  // All ends alike in image and inverse depth, as the paper assumes.
+  kLandmark,  // from the information of the line
+  // Equal for all ends in image and inverse depth, as the paper assumes.
   kInverseDepth,
 };
 
@@ -59,7 +59,7 @@ constexpr auto EnumNames(std::type_identity<CuttingEnds>) {
 }
 
 // Settings of line cutting. CutLines uses method, information and drop_share; ends, end_sigma and
-// budget are for runs alone.
+// budget are only for runs.
 struct CuttingOptions {
   CuttingMethod method = CuttingMethod::kNone;
   CuttingInformation information = CuttingInformation::kIndependent;
@@ -101,7 +101,7 @@ void VisitFields(Visitor&& visit, CuttingOptions& o) {
         Range{0, 100000});
 }
 
-// A 3D line that the image shows, linearized at the present estimate of the pose.
+// A matched 3D line, linearized at the current pose estimate.
 struct CuttableLine {
   Segment3 segment_in_cam;  // ends at ratio 0 and 1, in the camera frame; both with z > 1e-6 m
   // Covariances of the ends, camera frame, m^2; positive semidefinite. The errors of the two ends
@@ -113,33 +113,31 @@ struct CuttableLine {
   double sigma_px = 1;
 };
 
-// All that CutLines needs to know about one frame: its camera, its lines, and what else fixes the
-// pose.
+// Input of CutLines for one frame: camera, lines, and the other pose information.
 struct CuttingProblem {
   RectifiedCamera camera;
   std::vector<CuttableLine> lines;
-  // The information of everything else that fixes the pose, above all points: J^T W J in whitened
-  // residuals for the left perturbation exp([rotation, translation]) cam_from_world. It does not
-  // change with the cuts (eq. 7).
+  // Information of all other measurements of the pose, above all points: J^T W J in whitened
+  // residuals for the left perturbation exp([rotation, translation]) cam_from_world. Constant under
+  // changes of the cuts (eq. 7).
   Matrix6d other_information = Matrix6d::Zero();
 };
 
-// Returns the covariance (3 x 3, m^2, camera frame) of a point whose column and row in the image
-// are known to sigma_px and whose inverse depth is known to sigma_inverse_depth (1/m), all three
-// independent: "constant in inverse depth" of section 6. To first order, with X = (u, v, 1)/rho:
-// dX/du = e_x z / fx, dX/dv = e_y z / fy, dX/drho = -z X. `point_in_cam` must have z > 0 (BugError
-// otherwise).
+// Returns the covariance (3 x 3, m^2, camera frame) of a point from independent deviations of its
+// column and row in the image (sigma_px) and of its inverse depth (sigma_inverse_depth, 1/m):
+// "constant in inverse depth" of section 6. To first order, with X = (u, v, 1)/rho: dX/du = e_x z /
+// fx, dX/dv = e_y z / fy, dX/drho = -z X. `point_in_cam` must have z > 0 (BugError otherwise).
 //
-// For a point measured in an earlier camera, compute that camera's covariance and turn it into the
-// present one: R Sigma R^T with R of cam_from_earlier.
+// For a point measured in an earlier camera, compute that camera's covariance and rotate it into
+// the current one: R Sigma R^T with R of cam_from_earlier.
 Eigen::Matrix3d CovarianceFromInverseDepth(const RectifiedCamera& camera,
                                            const Eigen::Vector3d& point_in_cam,
                                            double sigma_px,
                                            double sigma_inverse_depth);
 
 // Returns the covariance of a point from a stereo pair or a depth image. The disparity fx *
-// baseline / z is known to sigma_disparity_px, and so the inverse depth to sigma_disparity_px / (fx
-// * baseline). The camera's baseline must be positive (BugError otherwise).
+// baseline / z has the deviation sigma_disparity_px, and so the inverse depth sigma_disparity_px /
+// (fx * baseline). The camera's baseline must be positive (BugError otherwise).
 Eigen::Matrix3d CovarianceFromDisparity(const RectifiedCamera& camera,
                                         const Eigen::Vector3d& point_in_cam,
                                         double sigma_px,
@@ -149,25 +147,26 @@ Eigen::Matrix3d CovarianceFromDisparity(const RectifiedCamera& camera,
 // start + a end, 0 <= first <= second <= 1. With equal ratios one point counts twice.
 struct LineCut {
   double first = 0, second = 1;
-  bool used = true;  // false: the line is left out (drop)
+  bool used = true;  // false: the line is dropped
 
-  // Whether both are equal bit by bit.
+  // True if both are equal bit by bit.
   bool operator==(const LineCut&) const = default;
 };
 
-// Information that is added in every direction of the pose [rad^-2 and map units^-2]. It keeps the
-// information matrix of few lines regular, and is far too small to matter for others.
+// Prior information in every direction of the pose [rad^-2 and map scale^-2]. It keeps the
+// information matrix of few lines regular, and is negligible otherwise.
 inline constexpr double kPriorInformation = 1e-6;
 
-// Returns the point that divides a segment at a ratio: 0 is its start, 1 its end.
+// Returns the point of a segment at a ratio: 0 is its start, 1 its end.
 inline Eigen::Vector3d PointAt(const Segment3& segment, double ratio) {
   return (1 - ratio) * segment.start + ratio * segment.end;
 }
-// Returns the piece of a segment that a cut leaves.
+// Returns the piece of a segment within a cut.
 inline Segment3 CutSegment(const Segment3& segment, const LineCut& cut) {
   return {PointAt(segment, cut.first), PointAt(segment, cut.second)};
 }
-// Returns where the image of PointAt(segment, ratio) lies between the images of the ends, 0 to 1.
+// Returns the ratio, 0 to 1, of the image of PointAt(segment, ratio) between the images of the
+// ends.
 inline double ImageRatio(const Segment3& segment_in_cam, double ratio) {
   const double end = ratio * segment_in_cam.end.z();
   return end / ((1 - ratio) * segment_in_cam.start.z() + end);

@@ -11,9 +11,9 @@
 
 namespace plumbline {
 
-// The objectives here are log det of the pose information as a function of the two ratios of one
-// line, with the other lines kept (4.2), up to a constant, with its gradient. They are called with
-// ratios in [0, 1]^2 in any order.
+// Objectives: log det of the pose information as a function of the two ratios of one line, with the
+// other lines fixed (4.2), up to a constant, with its gradient. They are called with ratios in [0,
+// 1]^2 in any order.
 
 // The objective for independent information, in closed form. With z^2 j(a) = p(a), a polynomial of
 // degree 2 whose coefficients are 6-vectors, and R the information of the rest,

@@ -13,7 +13,7 @@ namespace plumbline {
 
 struct RatioAscentOptions {
   int max_iterations = 100;
-  // Largest entry of the gradient that may remain where the box leaves it free.
+  // Largest remaining entry of the projected gradient.
   double gradient_tolerance = 1e-4;
   double step_tolerance = 1e-5;  // largest change of a ratio in the last iteration
 };
@@ -30,9 +30,8 @@ struct RatioAscent {
 // gradient method (Birgin, Martinez and Raydan 2000). Steps go along the gradient, clipped to the
 // box; their length follows from the last change of the gradient (Barzilai and Borwein 1988). A
 // step may lower the value, but not below the least of the last kMemory values: without this
-// freedom such steps lose their speed on long ridges. The best ratios seen are returned, never
-// worse than the start. `objective(ratios, gradient)` returns the value and sets the gradient.
-// Deterministic.
+// freedom such steps become slow on long ridges. Returns the best ratios visited, never worse than
+// the start. `objective(ratios, gradient)` returns the value and sets the gradient. Deterministic.
 template <int kSize, class Objective>
 class RatioAscender {
  public:
@@ -44,8 +43,7 @@ class RatioAscender {
   RatioAscent<kSize> From(const Vector& start) {
     RatioAscent<kSize> found = Run(start, kMemory);
     if (at_.value >= found.value) return found;
-    // The ascent has wandered off to a lower maximum: it starts again from the best ratios, always
-    // upwards.
+    // The ascent has reached a lower maximum: it restarts from the best ratios, upwards only.
     const int before = found.iterations;
     found = Run(found.ratios, 1);
     found.iterations += before;
@@ -90,8 +88,7 @@ class RatioAscender {
     return best;
   }
 
-  // Returns false when no part of the step is good enough. `least` is the lowest value that is
-  // allowed.
+  // Returns false if no part of the step is good enough. `least` is the lowest allowed value.
   bool Step(double length, double least) {
     const Vector direction = Clip(at_.ratios + length * at_.gradient) - at_.ratios;
     const double slope = at_.gradient.dot(direction);
@@ -103,7 +100,7 @@ class RatioAscender {
         at_ = next;
         return true;
       }
-      // The maximum of the parabola through both values and the slope, kept away from both ends.
+      // Maximum of the parabola through both values and the slope, kept away from both ends.
       const double best = 0.5 * part * part * slope / (at_.value + part * slope - next.value);
       part = std::isfinite(best) ? std::clamp(best, 0.1 * part, 0.5 * part) : 0.1 * part;
     }

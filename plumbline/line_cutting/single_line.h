@@ -8,14 +8,14 @@
 
 namespace plumbline {
 
-// The best cut of one line, with all other lines kept: gradient ascent from full length and from
-// either end (second paper, 5.1). It is the best of the three results, or the present cut where
-// none is better. A piece of length zero at an end is stationary across the diagonal: both ratios
-// have the same gradient, and no ascent from there leads to two different ratios. The starts at the
-// ends are therefore 0.02 long. `rest` are the sums over the other lines.
+// Best cut of one line, with all other lines fixed: gradient ascent from full length and from
+// either end (second paper, 5.1). It is the best of the three results, or the current cut if none
+// is better. A piece of length zero at an end is stationary across the diagonal: both ratios have
+// the same gradient, and no ascent from there leads to two different ratios. The starts at the ends
+// are therefore 0.02 long. `rest` are the sums over the other lines.
 struct SingleLineCut {
   LineCut cut;
-  double gain = 0;     // gain of log det over the present cut; 0 where that is kept
+  double gain = 0;     // gain of log det over the current cut; 0 if that is kept
   int iterations = 0;  // iterations of the three ascents together
 };
 SingleLineCut CutSingleLine(const CuttingProblem& problem,
