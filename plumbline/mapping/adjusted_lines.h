@@ -6,7 +6,7 @@
 
 namespace plumbline {
 
-// What local bundle adjustment held in memory for its lines, summed over all windows.
+// Memory of the lines in local bundle adjustment, summed over all windows.
 struct AdjustedLines {
   std::size_t count = 0;
   std::size_t bytes = 0;

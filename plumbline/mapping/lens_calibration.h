@@ -13,38 +13,38 @@
 
 namespace plumbline {
 
-// Moves all measurements of the left images of a problem to where they belong, and scales their
+// Applies a lens correction to all measurements of the left images of a problem, and scales their
 // deviations alike.
 void Correct(const LensCorrection& correction, BaProblem& problem);
 
-// What CalibrateRadialDistortion found.
+// Result of CalibrateRadialDistortion.
 struct RadialCalibration {
   LensCorrection correction;
-  // Poses and points adjusted to that correction, by their index in the problem; empty where there
-  // is no change.
+  // Poses and points adjusted to that correction, by their index in the problem; empty without a
+  // change.
   std::vector<Rigid3> poses;
   std::vector<Eigen::Vector3d> points;
 };
 
-// Learns the lens correction from the points of a map of one camera. A little distortion changes
-// the scale wherever the camera turns, because what passes through the middle of the image was at
-// its side before.
+// Estimates the lens correction from the points of a map of one camera. A little distortion changes
+// the scale wherever the camera turns, because landmarks move from the side of the image to its
+// centre.
 //
-// How: the profile of the cost over the correction is sampled. For each correction all poses and
+// Method: the profile of the cost over the correction is sampled. For each correction all poses and
 // points are adjusted (bundle adjustment of the points alone), starting from the solution for the
-// nearest correction so far: from further away a few points stick where they fit no correction. The
-// minimum is found by successive parabolas and joined with a normal prior about zero, whose
-// deviation is a hundredth of the image's width. A correction counts only if it lowers the cost by
-// more than a deviation of six would (a likelihood ratio of 36); where the camera goes straight on,
-// nothing tells of the distortion. Where measurements have had a correction already, the same is
-// asked of the whole correction: it is changed to what the points say now, and taken back where
-// they speak as clearly against it. There is no change where lengths are measured (a pair), where
-// it would be smaller than 2e-4 of the image's width, or when `stop` says so.
+// nearest correction so far: from further away a few points converge to positions that fit no
+// correction. The minimum is found by successive parabolas and combined with a normal prior about
+// zero, whose standard deviation is a hundredth of the image's width. A correction is accepted only
+// if it lowers the cost by more than a deviation of six would (a likelihood ratio of 36); on
+// straight motion the distortion is unobservable. If measurements are already corrected, the same
+// test applies to the total correction: it is updated to the current estimate, or removed if the
+// points are as clearly against it. There is no change if depth is measured (a pair), if it would
+// be smaller than 2e-4 of the image's width, or when stopped.
 //
-//   problem   of a whole map: poses with their gauge held, points with all observations
-//   known_px  border_px of the correction that the measurements have had
-//   returns   the correction that is to be made in addition
-//   cost      that of three adjustments of the points alone, of up to ten where there may be a
+//   problem   of a whole map: poses with a fixed gauge, points with all observations
+//   known_px  border_px of the correction already applied to the measurements
+//   returns   the correction to be applied in addition
+//   cost      that of three adjustments of the points alone, of up to ten if there may be a
 //             correction
 RadialCalibration CalibrateRadialDistortion(const BaProblem& problem,
                                             double known_px = 0,

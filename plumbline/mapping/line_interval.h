@@ -9,10 +9,10 @@
 
 namespace plumbline {
 
-// Returns the change that gives a map line a new place. The interval follows from the observed
-// segments, each trimmed to the new line. With four or more views the outermost ends are left out,
-// since one view's overlong segment should not lengthen the line for ever. The information follows
-// from all observations. The direction keeps its sense.
+// Returns the change that moves a map line. The interval follows from the observed segments, each
+// trimmed to the new line. With four or more views the outermost ends are dropped, since one view's
+// overlong segment should not lengthen the line for ever. The information follows from all
+// observations. The direction keeps its sense.
 //   poses  keyframe poses that differ from the map's
 edit::MoveLine RefitInterval(const Map& map,
                              const CameraAndPyramid& imaging,

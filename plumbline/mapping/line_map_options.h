@@ -9,11 +9,11 @@ namespace plumbline {
 struct LineMapOptions {
   int min_keyframes = 4;             // keyframes that must show each point of a line
   double max_relative_sigma = 0.02;  // deviation of each point of a line, over its distance
-  // Share of the keyframes that have a line in their image and show it.
+  // Share of the keyframes with a line in their image that must show it.
   double min_found_ratio = 0.25;
-  // Mean chi2 of the segments that show a line, of two residuals each.
+  // Largest mean chi2 of the segments of a line, of two residuals each.
   double max_mean_chi2 = 5;
-  double min_mean_length_px = 35;  // mean length of the segments that show a line
+  double min_mean_length_px = 35;  // mean length of the segments of a line
 };
 
 template <class Visitor>

@@ -12,17 +12,16 @@
 
 namespace plumbline {
 
-// Bundle adjustment of the part of the map around a keyframe, whose camera is the world of the
-// problem.
+// Local bundle adjustment around a keyframe, whose camera is the world of the problem.
 struct LocalBaWindow : MapProblem {
-  std::vector<LineId> lines;  // the line that has each index in the problem
+  std::vector<LineId> lines;  // line of each index in the problem
 };
 
 // Returns the window around a keyframe. The keyframe and its covisible keyframes are free, except
 // the first one of the map; other keyframes that see the same landmarks are fixed. At least one
-// keyframe is fixed, with a single camera two unless the window is the whole map; if need be, these
-// are the oldest of the window. Landmarks need two views. Lines need in addition a wide enough
-// angle between their interpretation planes, or well known ends.
+// keyframe is fixed, with a single camera two unless the window is the whole map; if need be, the
+// oldest of the window. Landmarks need two views. Lines need in addition a large enough angle
+// between their interpretation planes, or ends of small uncertainty.
 LocalBaWindow MakeLocalBaWindow(const Map& map,
                                 const CameraAndPyramid& imaging,
                                 KeyFrameId centre,
@@ -30,7 +29,7 @@ LocalBaWindow MakeLocalBaWindow(const Map& map,
                                 const LocalBaWindowOptions& options);
 
 // Returns the result as changes of the map: poses, landmarks (lines with new intervals and
-// information), and the removal of observations that turned out to be outliers.
+// information), and the removal of outlier observations.
 MapEdit ToEdit(const Map& map,
                const CameraAndPyramid& imaging,
                const LocalBaWindow& window,

@@ -31,7 +31,7 @@ struct MappingStep {
   double milliseconds = 0;
 };
 
-// A landmark that a feature shows, and the number of keyframes that show it.
+// A landmark of a feature, and the number of keyframes that show it.
 template <class LandmarkId>
 struct ShownLandmark {
   LandmarkId id = {};
@@ -40,56 +40,56 @@ struct ShownLandmark {
   friend bool operator==(const ShownLandmark&, const ShownLandmark&) = default;
 };
 
-// Takes keyframes into the map, one after the other: observations, landmarks from depth and from
-// several views, duplicates, local bundle adjustment, calibration of the stereo pair, clean-up.
-// Each step reads the map and returns a MapEdit, which is applied here.
+// Inserts keyframes into the map: observations, landmarks from depth and from several views,
+// duplicates, local bundle adjustment, calibration of the stereo pair, clean-up. Each step reads
+// the map and returns a MapEdit, which is applied here.
 class LocalMapper {
  public:
   LocalMapper(const CameraAndPyramid& imaging,
               const LineOptions& lines,
               const MappingOptions& options);
 
-  // Sets the options for all that is done from now on.
+  // Sets the options for all later steps.
   void SetOptions(const MappingOptions& options) { options_ = options; }
 
-  // Takes in a keyframe, with the scores that tracking counted since the last one. Where the
-  // pyramid of its rectified left image is given (BuildOrbPyramid), points are aligned
-  // (PointAligner). Returns the time of each step, in order. Where anything is thrown, the map is
-  // as it was.
+  // Inserts a keyframe, with the tracking scores since the last one. If the pyramid of its
+  // rectified left image is given (BuildOrbPyramid), points are aligned (PointAligner). Returns the
+  // time of each step, in order. If it throws, the map is unchanged.
   std::vector<MappingStep> Add(Map& map,
                                const KeyFrame& keyframe,
                                const TrackingScores& scores,
                                const ImagePyramid* pyramid = nullptr);
 
-  // Begins a map with several keyframes, of which `newest` is the last, and their landmarks. `edit`
-  // makes them from the empty map. All of the map is adjusted, then new landmarks of `newest` are
+  // Begins a map with several keyframes, of which `newest` is the last, and their landmarks: `edit`
+  // creates them in the empty map. The whole map is adjusted, then new landmarks of `newest` are
   // created. Returns the time of each step, in order.
   std::vector<MappingStep> Start(Map& map, const MapEdit& edit, KeyFrameId newest);
 
-  // Ties two keyframes that were far apart in the map and were found to see the same place. The
-  // landmarks that both show must be fused already. More of them are searched around both
-  // keyframes, and the surroundings of both are adjusted. Returns the time of each step, in order.
+  // Adjusts the neighbourhoods of two keyframes that see the same place but were far apart in the
+  // map. Their common landmarks must be fused already. More of them are searched around both
+  // keyframes, then both neighbourhoods are adjusted. Returns the time of each step, in order.
   std::vector<MappingStep> AdjustLoopNeighbourhood(Map& map, KeyFrameId newest, KeyFrameId older);
 
-  // Adjusts the whole of a map to which nothing will be added, twice (AdjustWholeMap), with the
-  // stereo correction that it was about to get, and removes what does not fit then
-  // (RemoveOutliers). When stopped, the poses are those of the last adjustment that was completed.
+  // Adjusts a finished map twice (AdjustWholeMap), with its pending stereo correction, and removes
+  // outliers (RemoveOutliers). When stopped, the poses are those of the last completed adjustment.
   // Returns the time of each step, in order.
   std::vector<MappingStep> Finish(Map& map, const StopCheck& stop = {}) const;
 
-  // Gives a new, empty map what was learned about a pair of cameras.
+  // Applies the learned stereo correction to a new, empty map.
   void StartNewMap(Map& map);
-  // Returns what adjusts a map of a single camera to the lens that another map has learned.
+  // Returns the correction that adjusts a map of a single camera to the lens learned in another
+  // map.
   MapCorrection ToLens(const Map& map, const LensCorrection& lens) const;
-  // Tells that keyframes of another map are taken in from now on.
+  // Prepares for keyframes of another map.
   void GoOnInAnotherMap();
-  // Follows maps of the atlas that were joined since the last call; to be called after a join.
+  // Follows merges of maps of the atlas since the last call; call it after each merge.
   void FollowJoins(const Atlas& atlas);
 
-  // Counts the lines that took part in local adjustments so far, over all maps and windows.
+  // Statistics of the lines in local adjustments so far, over all maps and windows.
   const AdjustedLines& adjusted_lines() const { return adjusted_lines_; }
 
-  // What the mapper knows about its maps beside them, as map files keep it (AtlasContext).
+  // State kept from keyframe to keyframe. A mapper of the same options that gets the state and the
+  // map of another mapper continues like it.
   struct State {
     std::map<MapId, RecentLandmarks> young;
     StereoEvidence stereo_evidence;
@@ -98,7 +98,7 @@ class LocalMapper {
   void SetState(const State& state);
 
  private:
-  // The landmarks that a keyframe shows, by feature.
+  // Landmarks of a keyframe, by feature.
   struct ShownLandmarks {
     std::vector<ShownLandmark<PointId>> points;
     std::vector<ShownLandmark<LineId>> lines;

@@ -15,13 +15,18 @@
 
 namespace plumbline {
 
-// The result of a computation that ran beside mapping: the places of keyframes and points, and the
+// Result of a computation beside mapping: the poses of keyframes, the positions of points, and the
 // lens correction of the features. The map may have changed since the computation began;
-// RebaseCorrection() applies the result to the map as it is now.
+// RebaseCorrection() applies the result to the current map.
 struct MapCorrection {
   struct KeyFramePlace {
     Rigid3 before, after;  // cam_from_world
-    double scale = 1;      // lengths around the keyframe, after / before
+    double scale = 1;      // scale around the keyframe, after / before
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.before, self.after, self.scale);
+    }
   };
   struct PointPlace {
     Eigen::Vector3d before = Eigen::Vector3d::Zero();
@@ -30,19 +35,18 @@ struct MapCorrection {
   std::map<KeyFrameId, KeyFramePlace> keyframes;
   std::map<PointId, PointPlace> points;
   std::vector<edit::RemovePointObservation> outliers;
-  std::optional<LensCorrection> lens = {};  // the lens correction of the map, where it is another
+  std::optional<LensCorrection> lens = {};  // new lens correction of the map, if it changed
 
   bool empty() const { return keyframes.empty(); }
 };
 
 // Returns the correction as changes of a map that may have grown, shrunk and been adjusted since.
 //
-// Every keyframe takes part in the motion that the correction found for it, a similarity of the
-// world. What happened to a keyframe meanwhile stays as it is, seen from the moved world. A
-// keyframe that came later moves with the nearest ancestor that the correction knows, so that
-// nothing tears between old and new. A landmark moves with the newest keyframe that shows it.
-// Keyframes and points that did not change meanwhile get exactly the place that was computed.
-// Places of keyframes and points that have left the map are left out.
+// Every keyframe moves by the similarity of the world that the correction implies for it. Its
+// changes since then are kept, relative to the moved world. Later keyframes move with their nearest
+// ancestor in the correction, so that old and new parts stay consistent. A landmark moves with the
+// newest keyframe that shows it. Keyframes and points without changes since get exactly the
+// computed poses and positions. Those of keyframes and points that have left the map are ignored.
 MapEdit RebaseCorrection(const MapCorrection& correction, const Map& today);
 
 }  // namespace plumbline

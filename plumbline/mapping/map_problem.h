@@ -14,19 +14,19 @@
 
 namespace plumbline {
 
-// Keyframes and landmarks of a map as a plain problem, and what its numbers stand for. The
-// problem's world is the camera of a keyframe, since lines far from the origin are ill conditioned.
+// Keyframes and landmarks of a map as a plain problem, and the ids of its indices. The problem's
+// world is the camera of a keyframe, since lines far from the origin are ill conditioned.
 struct MapProblem {
   BaProblem problem;
   Rigid3 problem_from_world;
-  std::vector<KeyFrameId> keyframes;  // the keyframe of each pose index
-  std::vector<PointId> points;        // the point of each point index
+  std::vector<KeyFrameId> keyframes;  // keyframe of each pose index
+  std::vector<PointId> points;        // point of each point index
 };
 
-// Fills a MapProblem. All poses have to be added before the landmarks that they show.
+// Fills a MapProblem. All poses must be added before their landmarks.
 class MapProblemBuilder {
  public:
-  // A feature of a keyframe that has a pose in the problem.
+  // An observation by a keyframe that has a pose in the problem.
   struct View {
     int pose = 0;
     std::size_t feature = 0;
@@ -45,15 +45,15 @@ class MapProblemBuilder {
   // Returns the views of a landmark, ordered by keyframe. Valid until the next call.
   const std::vector<View>& ViewsOf(const Observations& observations);
 
-  // Adds a point with its views; a point with fewer than two views is left out.
+  // Adds a point with its views; skips points with fewer than two views.
   void AddPoint(const MapPoint& point);
   // Adds a line without views and returns its index.
   int AddLine(const PluckerLine& in_world);
-  // Adds the segment in the left image to a line; with `with_right` also the segment in the right
-  // image, where there is one.
+  // Adds the segment in the left image to a line; with `with_right` also that in the right image,
+  // if any.
   void AddLineView(int line, const View& view, bool with_right);
 
-  // Returns the index of the pose of a keyframe; kNoPose where the keyframe has none.
+  // Returns the index of the pose of a keyframe; kNoPose if it has none.
   static constexpr int kNoPose = -1;
   int PoseOf(KeyFrameId id) const { return pose_of_[static_cast<std::size_t>(id.value)]; }
 
@@ -72,15 +72,15 @@ class MapProblemBuilder {
   std::vector<View> views_;           // result of the last ViewsOf
 };
 
-// Returns the removals of the observations of points that turned out to be outliers.
+// Returns the removals of the outlier observations of points.
 std::vector<edit::RemovePointObservation> OutliersOf(const MapProblem& part,
                                                      const BaResult& result);
 
-// Returns the poses of the result in the world of the map, with the poses that were fixed.
+// Returns the poses of the result in the world of the map, including fixed poses.
 std::map<KeyFrameId, Rigid3> PosesByKeyFrame(const MapProblem& part, const BaResult& result);
 
-// Returns the result as changes of the map: poses that were free, points, and the removal of
-// observations of points that turned out to be outliers. The caller takes care of lines.
+// Returns the result as changes of the map: free poses, points, and the removal of outlier
+// observations of points. Lines are up to the caller.
 MapEdit PosesAndPointsOf(const MapProblem& part, const BaResult& result);
 
 }  // namespace plumbline

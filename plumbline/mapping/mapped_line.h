@@ -8,12 +8,12 @@
 
 namespace plumbline {
 
-// A straight piece of the world's lines, as given to users.
+// A straight piece of a line of the world, for output.
 struct MappedLine {
-  Segment3 segment;  // in the world; directed with the brighter side as LineFeature says
-  // Deviation of the worse end across the line, in the map's unit; poses count as exact.
+  Segment3 segment;  // in the world; direction by its brighter side (LineFeature)
+  // Deviation of the worse end across the line, in the map's scale; poses count as exact.
   double sigma = 0;
-  int keyframes = 0;  // number of keyframes that show some of it
+  int keyframes = 0;  // number of keyframes that show a part of it
 };
 
 // Returns the segments of lines, for drawing.

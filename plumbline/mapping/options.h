@@ -15,11 +15,11 @@ namespace plumbline {
 struct LandmarkCreationOptions {
   // Largest deviation, relative to the depth, of points made from one stereo or RGB-D frame.
   double max_relative_depth_sigma = 0.04;
-  // Where fewer points than this are that exact, the best known others are made, too.
+  // With fewer such points than this, the most certain others are made, too.
   int min_depth_points = 100;
   // Largest deviation, relative to the depth, of the ends of lines made from one frame.
   double max_relative_line_depth_sigma = 0.107;
-  // Keyframes that are searched for a second view of a point.
+  // Number of keyframes searched for a second view of a point.
   int neighbours = 6;
 };
 
@@ -46,7 +46,7 @@ void VisitFields(Visitor&& visit, LandmarkCreationOptions& o) {
 struct CleanupOptions {
   // Share of a keyframe's landmarks that three others must show to make it redundant.
   double redundant_share = 0.9;
-  double revisited_share = 0.7;  // that share where a place is seen again
+  double revisited_share = 0.7;  // redundant_share at revisited places
 };
 
 template <class Visitor>
@@ -63,19 +63,19 @@ void VisitFields(Visitor&& visit, CleanupOptions& o) {
 }
 
 struct LocalBaWindowOptions {
-  // Keyframes that are adjusted, closest in covisibility.
+  // Number of adjusted keyframes, closest in covisibility.
   int free_keyframes = 12;
-  // Most fixed keyframes, which see the same landmarks and hold the window.
+  // Largest number of fixed keyframes, which see the same landmarks and fix the window.
   int fixed_keyframes = 20;
-  // Angle between views that a line needs to take part, unless its ends are known well.
+  // Least angle between the views of a line in the window, unless its ends are certain.
   double min_line_plane_angle_deg = 10;
-  // Deviation of the ends, relative to their depth, up to which they are known well.
+  // Largest deviation of certain ends, relative to their depth.
   double max_line_relative_sigma = 0.05;
-  // A keyframe is adjusted only if its pose is known to this (PoseUncertainty).
+  // Largest uncertainty of an adjusted keyframe's pose (PoseUncertainty).
   double max_pose_sigma = 0.01;
-  // Largest correction of a keyframe against the one before, in one window.
+  // Largest correction of a keyframe relative to the one before, in one window.
   double max_correction = 0.03;
-  bool parallel_lines = true;  // whether lines keep to directions that many lines of the map share
+  bool parallel_lines = true;  // true: lines keep to directions shared by many lines of the map
 
   PoseLimits local_limits() const { return {.sigma = max_pose_sigma, .change = max_correction}; }
   PoseLimits whole_map_limits() const {
@@ -117,7 +117,7 @@ struct MappingOptions {
   LandmarkCreationOptions creation;
   CleanupOptions cleanup;
   LocalBaWindowOptions window;
-  LocalBaOptions ba{.function_tolerance = 1e-3};  // 1e-4 takes 1.2 times the time and is no better
+  LocalBaOptions ba{.function_tolerance = 1e-3};  // 1e-4 takes 1.2 times the time without gain
   bool stereo_calibration = true;
   bool lens_calibration = true;
   int final_adjustment_keyframes = 1000;

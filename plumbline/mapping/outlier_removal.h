@@ -8,16 +8,15 @@
 
 namespace plumbline {
 
-// Removes the observations that disagree with their landmark at the poses that keyframes have now:
-// whose whitened residual (EvaluatePoint; EvaluateLine, left image or right) is longer than 4.
+// Removes the outlier observations at the current poses of the keyframes: those whose whitened
+// residual (EvaluatePoint; EvaluateLine, left image or right) is longer than 4.
 //
-// Bundle adjustment judges the observations that are in its window at the time. Keyframes that move
-// later, alone or with the whole map, take lines along and leave observations behind that no window
-// judges again; lines without depth are in no window at all. So each landmark with an observation
-// that disagrees is fitted again, poses held (SolveLocalBa): to all of its observations, and then
-// to those that agree, wherever most agree. The others are removed. A landmark that loses
-// some and keeps less than three is removed. Landmarks whose observations all agree stay as they
-// are, bit by bit.
+// Bundle adjustment classifies only the observations in its window. Keyframes that move later,
+// alone or with the whole map, move lines and leave outliers that no later window classifies; lines
+// without depth are in no window at all. So each landmark with an outlier is fitted again with
+// fixed poses (SolveLocalBa): to all of its observations, and then to the inliers, wherever most
+// agree. The others are removed. A landmark that loses some and keeps less than three is removed.
+// Landmarks without outliers are unchanged, bit by bit.
 //
 // Returns the change of the map. Cost: one residual for each observation, and a small adjustment
 // for each landmark that has an outlier.

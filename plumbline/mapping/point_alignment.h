@@ -18,7 +18,7 @@
 
 namespace plumbline {
 
-// The patches that recent keyframes show around their corners.
+// Image patches around the corners of a recent keyframe.
 struct KeyFramePatches {
   static constexpr int kRadius = 3;  // radius of a patch
   static constexpr int kWideSide = 2 * (kRadius + 1) + 1;
@@ -26,36 +26,35 @@ struct KeyFramePatches {
 
   KeyFrameId keyframe;
   // One row for each point feature: the samples of its patch in steps of its octave, with one more
-  // on each side for derivatives. Samples are zero where the patch leaves the image.
+  // on each side for derivatives. Zero if the patch leaves the image.
   GrayImage samples;
 };
 
-// Finds where a new keyframe shows exactly those points of the scene that older keyframes show.
+// Aligns the points of a new keyframe with the same points of the scene in older keyframes.
 //
-// The corners that a detector finds in two images are not quite the same point of the scene. They
-// lie inside of their edges by a part of a pixel of their octave, so that a point that comes nearer
-// moves with each octave in which it is found. Along a road all points do so, and the scale of a
-// map of one camera falls (docs/log/single-camera.md).
+// A detector's corners in two images are not exactly the same point of the scene. They lie inside
+// of their edges by a fraction of a pixel of their octave, so that an approaching point moves with
+// each octave of its detection. Along a road all points do so, and the scale of a map of one camera
+// shrinks (docs/log/single-camera.md).
 //
 // The reference is therefore the patch around the corner in the oldest of the recent keyframes that
 // show the landmark. It is warped by the depth and the poses as if it faced that camera, and
 // shifted until it fits the new image (AlignShift). The feature is moved to the mean of its corner
-// and that place, weighed by their covariances. The moved feature is a reference for later
-// keyframes in turn, so that all observations of a landmark speak of the point that the first of
-// them shows.
+// and the aligned position, weighted by their covariances. The moved feature is a reference for
+// later keyframes in turn, so that all observations of a landmark refer to the point of the first
+// one.
 class PointAligner {
  public:
   static constexpr std::size_t kRecent = 20;  // number of keyframes whose patches are kept
 
-  // octave_scale: how many times smaller each octave of the image pyramid is than the one below.
+  // octave_scale: reduction factor from each octave of the image pyramid to the next.
   PointAligner(const RectifiedCamera& camera, double octave_scale)
       : camera_(camera), octave_scale_(octave_scale) {}
 
-  // Returns the features of a keyframe of the map, with those points moved to where they align that
-  // have patches in recent keyframes; nullptr where there is none. Remembers the patches of this
-  // keyframe. `pyramid` is that of its rectified left image with the given scale of octaves
-  // (BuildOrbPyramid). Deviations stay as they are. Cost: about 5 microseconds a point that is
-  // looked for, and the patches of all corners.
+  // Returns the features of a keyframe of the map, with points aligned that have patches in recent
+  // keyframes; nullptr if there are none. Stores the patches of this keyframe. `pyramid` is that of
+  // its rectified left image with the given scale of octaves (BuildOrbPyramid). Deviations are
+  // unchanged. Cost: about 5 microseconds a searched point, and the patches of all corners.
   std::shared_ptr<const FrameFeatures> Align(const Map& map,
                                              KeyFrameId id,
                                              const ImagePyramid& pyramid);

@@ -14,15 +14,15 @@
 
 namespace plumbline {
 
-// Finds segments of an image by place and direction. Each cell of a coarse grid, and each range of
-// directions, keeps a set of segments, with one bit for each segment.
+// Index of segments of an image by position and direction. Each cell of a coarse grid, and each
+// range of directions, has a set of segments, with one bit for each segment.
 class SegmentIndex {
  public:
-  // An empty index of an image of width x height pixels, to which `count` segments will be added.
+  // An empty index for `count` segments of an image of width x height pixels.
   SegmentIndex(int width, int height, std::size_t count);
 
   void Add(std::size_t index, const Segment2& segment);
-  // Removes a segment, so that it is not found any more.
+  // Removes a segment from later searches.
   void Remove(std::size_t index) { At(open_, 0, index / kBits) &= ~Bit(index); }
 
   // Calls visit(index), ascending, for all segments whose bounding box meets `box` and whose

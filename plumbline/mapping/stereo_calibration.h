@@ -9,38 +9,36 @@
 
 namespace plumbline {
 
-// Learns the smooth part of the errors of disparities (StereoCorrection) from a map.
+// Estimates the smooth part of the errors of disparities (StereoCorrection) from a map.
 //
-// Where at least three keyframes show a point in their left images, these and the poses tell where
-// the right image should show it, to a deviation of 2.5e-4 of the image's width or better. The
-// right image was measured to show it somewhere else, off by c(x, y) + s d: the displacement c, and
-// the disparity d times the error s of the map's scale around that keyframe. s is unknown for each
-// keyframe and eliminated (Schur complement). If it were taken for a displacement, it would bend
-// the disparities further its way, since near things are below and far ones above. Only points are
-// used: where there are none, lines learned a correction that bent the map.
+// If at least three keyframes show a point in their left images, these and the poses predict its
+// position in the right image to a standard deviation of 2.5e-4 of the image's width or better. The
+// measured position differs by c(x, y) + s d: the displacement c, and the disparity d times the
+// error s of the map's scale around that keyframe. s is unknown for each keyframe and eliminated
+// (Schur complement). Interpreted as a displacement, it would reinforce the error of the
+// disparities, since near things are below and far ones above. Only points are used: without
+// points, lines gave a correction that bent the map.
 //
-// Each coefficient has a normal prior, whose deviation is 4e-4 of the image's width. Evidence
-// enters under the Huber loss. The mean of c over all evidence is left as it is, since the scale of
-// the map depends on it, which the calibration has to tell. The rest of c has five independent
-// parts (common eigenvectors of its covariance and of its mean square). Each is shrunk by 1 -
-// variance / square, to zero where that is negative (James and Stein 1961, positive part), so that
-// little evidence changes little. Corners at the edges of things have biased disparities, some
+// Each coefficient has a normal prior with a standard deviation of 4e-4 of the image's width.
+// Evidence enters under the Huber loss. The mean of c over all evidence is kept, since it
+// determines the scale of the map, which must come from the calibration. The rest of c has five
+// independent parts (common eigenvectors of its covariance and of its mean square). Each is shrunk
+// by 1 - variance / square, to zero if that is negative (James and Stein 1961, positive part), so
+// that little evidence changes little. Corners at depth edges have biased disparities, some
 // hundredths of a pixel in the mean. The whole of c is therefore shrunk by 1 - (0.04 px / rms of
-// c)^2, so that a good calibration stays as it is.
+// c)^2, so that a good calibration is unchanged.
 class StereoCalibrator {
  public:
   explicit StereoCalibrator(const RectifiedCamera& camera);
 
-  // Takes in the disparities of one keyframe. To be called once for each keyframe, when later ones
-  // show the same landmarks. Does nothing with a single camera. Cost: a triangulation for each
-  // landmark.
+  // Adds the disparities of one keyframe. Call once for each keyframe, when later ones show the
+  // same landmarks. Does nothing with a single camera. Cost: a triangulation for each landmark.
   void Observe(const Map& map, const KeyFrame& keyframe);
 
-  // Returns the correction for which all evidence so far speaks; no correction before there is
-  // evidence.
+  // Returns the correction estimated from all evidence so far; no correction without evidence.
   StereoCorrection Estimate() const;
 
-  // All evidence so far. It can be put into the calibrator of a later run with the same camera.
+  // All evidence so far. It can be passed to the calibrator of a later run with the same camera.
   const StereoEvidence& evidence() const { return evidence_; }
   void SetEvidence(const StereoEvidence& evidence) { evidence_ = evidence; }
 

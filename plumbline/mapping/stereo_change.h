@@ -14,21 +14,34 @@
 
 namespace plumbline {
 
-// Gives all keyframes of a map another stereo correction, at a cost for each step that does not
-// grow with the map. Each step prepares the features of some keyframes; when all are prepared, the
-// map takes them at once. Until then the whole map keeps the old correction. A map of no more than
-// kSlice keyframes changes with the first step.
+// Applies another stereo correction to all keyframes of a map, at a cost for each step that does
+// not grow with the map. Each step prepares the features of some keyframes; when all are prepared,
+// the map gets them at once. Until then the whole map keeps the old correction. A map of no more
+// than kSlice keyframes changes with the first step.
 //
 // The keyframe at which the change takes effect depends on the map alone. Not thread-safe.
 class StereoChange {
  public:
-  // Keyframes prepared in one step, some microseconds each.
+  // Number of keyframes prepared in one step, some microseconds each.
   static constexpr std::size_t kSlice = 256;
 
+  // The change in progress. An object with the same state and map completes the change at the same
+  // step.
+  struct State {
+    MapId map;
+    StereoCorrection correction;
+    KeyFrameId next{0};  // the keyframes before this one are ready
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.map, self.correction, self.next);
+    }
+  };
+
   bool Running(const Map& map) const { return state_ && state_->map == map.id(); }
-  // Begins a change of this map and gives up one that is under way.
+  // Begins a change of this map and cancels one in progress.
   void Begin(const Map& map, const StereoCorrection& correction);
-  // Does one step of the change that is under way for this map, if there is one.
+  // Does one step of the change in progress for this map, if any.
   void Step(Map& map);
   void GiveUp();
   // Gives up a change of a map that has been joined to another one, which has its own correction.
@@ -45,7 +58,7 @@ class StereoChange {
 
   std::optional<State> state_;
   edit::CorrectFeatures change_;
-  // Features that no keyframe has any more. They are freed step by step, since freeing takes time.
+  // Replaced features. They are freed step by step, since freeing takes time.
   std::deque<std::shared_ptr<const FrameFeatures>> retired_;
 };
 
