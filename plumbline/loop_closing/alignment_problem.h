@@ -12,8 +12,8 @@
 
 namespace plumbline {
 
-// The relative pose of two cameras, "query" and "candidate", from landmarks that both of them know,
-// as plain data. Each landmark is in the frame and the unit of one of the two.
+// The relative pose of two cameras, "query" and "candidate", from landmarks known to both, as plain
+// data. Each landmark is in the frame and scale of one of the two.
 
 // A point in the frame of a camera.
 struct CameraPoint {
@@ -29,15 +29,15 @@ struct AlignmentProblem {
   struct LinePair {
     LineModel in_query, in_candidate;
   };
-  // A point whose place only one of the two cameras knows, and which the other one saw.
+  // An observation by one of the two cameras of a point whose position only the other one knows.
   struct Sighting {
     bool known_to_query = true;
     CameraPoint point;
-    PointMeasurement measurement;  // what the other camera measured
+    PointMeasurement measurement;  // measurement by the other camera
   };
 
   RectifiedCamera camera;
-  bool free_scale = false;  // true with one camera, where the unit of length is unknown
+  bool free_scale = false;  // true with one camera, whose scale is unknown
   std::vector<PointPair> points;
   std::vector<LinePair> lines;
   std::vector<Sighting> sightings;

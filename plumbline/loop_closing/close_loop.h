@@ -18,9 +18,9 @@
 
 namespace plumbline {
 
-// Why a loop that was verified does not change the map.
+// Reason why a verified loop does not change the map.
 enum class ClosingRefusal {
-  kOutOfMap,       // keyframes of the loop are gone, or not tied to the rest
+  kOutOfMap,       // keyframes of the loop have left the map or are disconnected
   kNotSolved,      // the pose graph has no solution
   kContradicted,   // the graph with all other loops gives it no weight
   kBendsOdometry,  // it would bend the odometry more than odometry can have drifted
@@ -33,21 +33,22 @@ constexpr auto EnumNames(std::type_identity<ClosingRefusal>) {
                     std::pair{ClosingRefusal::kBendsOdometry, "bends_odometry"}};
 }
 
-// The result of closing a loop.
+// Result of closing a loop.
 struct LoopCorrection {
-  MapEdit edit;                    // moves the keyframes, then fuses landmarks that are one
-  std::vector<bool> earlier_kept;  // for each earlier edge: whether it agrees with the result
+  MapEdit edit;  // moves the keyframes, then fuses matched landmarks
+  // for each earlier edge: true if it is consistent with the result
+  std::vector<bool> earlier_kept;
 };
 
 // Closes a loop of a map. The essential graph of the map (MakeEssentialGraph) is solved with all
 // loops (SolvePoseGraph), by similarities with one camera, otherwise by rigid motions; the oldest
-// keyframe and its unit stay. The keyframes move with all that refers to them
+// keyframe and its scale are fixed. The keyframes move with everything relative to them
 // (edit::MoveKeyFrames), and the pairs of the new loop are fused (FusePairs). The caller adjusts
-// the surroundings and the whole map.
+// the neighbourhood and the whole map.
 //
-// Returns a refusal where the other loops contradict the new one (graduated non-convexity), or
-// where one edge of odometry, or all together, would be bent by more than drift allows: a right
-// loop raises the sum of chi2 by its degrees of freedom.
+// Returns a refusal if the other loops contradict the new one (graduated non-convexity), or if it
+// would bend one edge of odometry, or all together, more than drift allows: a right loop raises the
+// sum of chi2 by its degrees of freedom.
 //
 // Cost: about 0.1 s for 3,000 keyframes.
 Expected<LoopCorrection, ClosingRefusal> CloseLoop(const Map& map,
@@ -56,10 +57,10 @@ Expected<LoopCorrection, ClosingRefusal> CloseLoop(const Map& map,
                                                    const LoopEdge& newest,
                                                    const LoopOptions& options);
 
-// Fuses pairs of landmarks that are one. The landmark of the query becomes part of that of the
-// candidate, whose appearance is refreshed; the interval of a line covers both. Pairs of which a
-// keyframe shows both landmarks stay apart, and so do pairs of which one is gone. Both landmarks
-// must be in `map`; for maps that were joined, the pairs have the ids of today.
+// Fuses pairs of landmarks. The landmark of the query becomes part of that of the candidate, whose
+// appearance is refreshed; the interval of a line covers both. Pairs stay apart if a keyframe shows
+// both landmarks, or if one has left the map. Both landmarks must be in `map`; for merged maps, the
+// pairs have their current ids.
 //
 //   motion  motion of keyframes that the map makes before the fusion (for the intervals of lines)
 MapEdit FusePairs(const Map& map,

@@ -17,24 +17,23 @@
 
 namespace plumbline {
 
-// Returns the keyframe itself, or its nearest ancestor that is in the map; an invalid id where
-// there is none.
+// Returns the keyframe itself, or its nearest ancestor in the map; an invalid id if it has none.
 KeyFrameId NearestAncestor(const Map& map, KeyFrameId id);
 
-// The keyframes of a map and what ties them, without landmarks: the pose graph that a loop bends.
-// A tie joins a keyframe with its nearest ancestor that is in the map, and any two keyframes that
-// share many landmarks. Each tie is an edge of the pose graph. Its relative pose is that of the
-// map, and its information says how far odometry may have drifted from one keyframe to the other.
-// Edges are large, and few are needed to judge a loop, so that they are made when asked for.
+// The keyframes of a map and their connections, without landmarks: the pose graph that a loop
+// corrects. A tie connects a keyframe with its nearest ancestor in the map, and any two keyframes
+// that share many landmarks. Each tie is an edge of the pose graph. Its relative pose is that of
+// the map, and its information models the drift of odometry between the two keyframes. Edges are
+// large, and few are needed to check a loop, so that they are made on demand.
 struct EssentialGraph {
-  std::vector<KeyFrameId> keyframes;      // the keyframe of each pose, ascending
+  std::vector<KeyFrameId> keyframes;      // keyframe of each pose, ascending
   std::vector<Similarity3> poses;         // cam_from_world
   std::vector<std::pair<int, int>> ties;  // indices of poses, the larger one first; ascending
-  double usual_length = 0;                // mean distance of the poses that a tie joins
+  double usual_length = 0;                // mean distance of poses connected by a tie
   bool free_scale = false;
   DriftOptions drift;
 
-  // Returns the index of a keyframe's pose; -1 where it is not in the map.
+  // Returns the index of a keyframe's pose; -1 if it is not in the map.
   int PoseOf(KeyFrameId id) const;
   // Returns the edge of a tie, from its smaller index to the larger one.
   PoseGraphEdge Edge(std::size_t tie) const;
@@ -42,52 +41,52 @@ struct EssentialGraph {
   PoseGraph WithAllEdges() const;
 };
 
-// Returns the usual drift of odometry, without what a single camera that turns may lose at worst.
+// Returns the usual drift of odometry, without the worst case of a single camera that turns.
 DriftOptions AsARule(DriftOptions drift);
 
-// Makes the essential graph of a map. free_scale: the map is that of a single camera. `covisible`
-// must have followed the map as it is. Cost: that of the product of two poses for each tie.
+// Makes the essential graph of a map. free_scale: true for a map of a single camera. `covisible`
+// must have followed the current map. Cost: that of the product of two poses for each tie.
 EssentialGraph MakeEssentialGraph(const Map& map,
                                   const StrongCovisibility& covisible,
                                   bool free_scale,
                                   const DriftOptions& drift);
-// Makes the essential graph of a map of which nothing is counted yet. O(observations).
+// Makes the essential graph of a map without a StrongCovisibility. O(observations).
 EssentialGraph MakeEssentialGraph(const Map& map,
                                   bool free_scale,
                                   const DriftOptions& drift,
                                   int strong_covisibility);
 
 // Divides the information of each edge by the number of edges that carry nearly the same
-// information. A keyframe is tied to several before and after it, but the drift from one keyframe
-// to the next is common to all of these edges: with d edges at each pose of a path, d (d + 2) / 8
-// edges lead from the part before a place to the part after it. The path as a whole is then as
-// stiff as odometry along single edges.
+// information. A keyframe is connected to several before and after it, but the drift from one
+// keyframe to the next is common to all of these edges: with d edges at each pose of a path, d (d +
+// 2) / 8 edges connect the part before a place with the part after it. The path as a whole is then
+// as stiff as odometry along single edges.
 void ShareInformation(PoseGraph& graph);
 
-// Returns a loop as an edge of the graph, which may be wrong. Where one of its keyframes has left
-// the map, its nearest ancestor in the map takes its place. Returns nullopt where there is none, or
-// where both keyframes are then the same.
+// Returns a loop as an edge of the graph, which may be wrong. If one of its keyframes has left the
+// map, its nearest ancestor in the map replaces it. Returns nullopt if it has none, or if both
+// keyframes are then the same.
 std::optional<PoseGraphEdge> LoopAsEdge(const Map& map,
                                         const EssentialGraph& essential,
                                         const LoopEdge& loop);
 
-// The relative poses that odometry gives to the poses of a graph. They lead along the way with the
-// fewest keyframes, on which the drifts of the edges add up. The ways from a pose are kept once
-// found. The graph must outlive this and stay as it is.
+// Relative poses by odometry of the poses of a graph, along the path with the fewest keyframes, on
+// which the drifts of the edges add up. The paths from a pose are cached. The graph must outlive
+// this object and must not change.
 class OdometryWays {
  public:
   explicit OdometryWays(const EssentialGraph& essential);
 
-  // Returns nullopt where no ties lead from one pose to the other. O(ties) for the first call with
-  // a pose, then O(length of the way).
+  // Returns nullopt if the poses are not connected. O(ties) for the first call with a pose, then
+  // O(length of the path).
   std::optional<PoseWithCovariance> Along(int to, int from);
 
  private:
   const std::vector<int>& WaysFrom(int first);
 
   const EssentialGraph& essential_;
-  std::vector<std::vector<int>> ties_of_;  // the ties of each pose, ascending
-  // For each first pose: the tie that leads to each pose on the way.
+  std::vector<std::vector<int>> ties_of_;  // ties of each pose, ascending
+  // For each first pose: the last tie on the path to each pose.
   std::map<int, std::vector<int>> ways_from_;
 };
 

@@ -12,7 +12,7 @@
 
 namespace plumbline {
 
-// A keyframe and the landmarks around it: its own, and those of keyframes that see the same.
+// A keyframe and its local landmarks: its own, and those of covisible keyframes.
 struct LocalLandmarks {
   const KeyFrame* keyframe = nullptr;
   std::vector<KeyFrameId> neighbours;   // ordered by covisibility, the highest first
@@ -21,12 +21,12 @@ struct LocalLandmarks {
 };
 
 // Returns a keyframe with its landmarks and those of the `neighbours` most covisible keyframes.
-// Throws BugError where the map has no such keyframe. O(their matches).
+// Throws BugError if the map has no such keyframe. O(their matches).
 LocalLandmarks LandmarksAround(const Map& map, KeyFrameId id, int neighbours);
 
-// Returns a point in the frame of a camera, with the covariance that follows from its newest eight
-// observations with the keyframes held. Where they leave a direction open, its deviation is the
-// distance from the camera.
+// Returns a point in the frame of a camera, with the covariance from its newest eight observations
+// with fixed keyframes. Directions that they leave undetermined get the distance from the camera as
+// standard deviation.
 CameraPoint PointInCamera(const RectifiedCamera& camera,
                           const Map& map,
                           const MapPoint& point,
@@ -35,21 +35,21 @@ CameraPoint PointInCamera(const RectifiedCamera& camera,
 // Returns the line in the frame of a camera.
 LineModel LineInCamera(const MapLine& line, const Rigid3& cam_from_world);
 
-// Returns the pose of a camera in the world of other landmarks, in their unit. It follows from the
-// pose of their keyframe and that keyframe's place relative to the camera. Directions are right for
-// any scale.
+// Returns the pose of a camera in the world of other landmarks, in their scale, from the pose of
+// their keyframe and that keyframe's pose relative to the camera. Directions are right for any
+// scale.
 Rigid3 CameraAmong(const Rigid3& keyframe_from_world, const Similarity3& camera_from_keyframe);
 
-// Landmarks that were searched for in an image.
+// Result of a search for landmarks in an image.
 struct SearchedImage {
-  // One for each point; nullopt where the point is not in view.
+  // One for each point; nullopt if the point is not in view.
   std::vector<std::optional<ProjectedPoint>> projected_points;
   std::vector<std::optional<ProjectedLine>> projected_lines;
   std::vector<LandmarkMatch> points, lines;  // landmark: its index; feature: that of the image
   int tested_points = 0, tested_lines = 0;   // number of landmarks in view
 };
 
-// Projects landmarks into an image and finds the features near their places that match them.
+// Projects landmarks into an image and finds matching features near their projections.
 SearchedImage SearchImage(const CameraAndPyramid& imaging,
                           const LocalLandmarks& landmarks,
                           const Rigid3& cam_from_world,

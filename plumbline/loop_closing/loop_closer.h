@@ -20,59 +20,77 @@ namespace plumbline {
 
 // A closed loop, whose edge is the last of LoopCloser::loops().
 struct LoopClosure {
-  MapEdit edit;  // applies to the map as it was given
-  // Earlier loops that the graph leaves out now. The closer has forgotten them; the caller unties
-  // what they tie after the edit (UndoLoop).
+  MapEdit edit;  // for the map that was given
+  // Earlier loops that the graph now rejects. The closer has forgotten them; the caller undoes them
+  // after the edit (UndoLoop).
   std::vector<LoopEdge> withdrawn;
 };
 
-// The result for a candidate that was looked at.
+// Result for one candidate.
 struct LoopAttempt {
   KeyFrameId query, candidate;
-  std::optional<LoopRefusal> unverified;  // why it is not taken for the same place
-  // The measured edge, where it is the same place.
+  std::optional<LoopRefusal> unverified;  // reason why verification failed
+  // The measured edge, if verified.
   std::optional<LoopEdge> edge;
   double drift_chi2 = 0;  // chi2 of the edge against odometry
-  // Why the verified loop is not closed.
+  // Reason why the verified loop is not closed.
   std::optional<ClosingRefusal> unclosed;
   bool beyond_drift = false;  // odometry cannot have drifted so far
-  // The usual drift contradicts the edge, but one camera that turned may have drifted so far.
+  // The usual drift contradicts the edge, but the worst case of a turning single camera allows it.
   bool drifted_far = false;
   // The edge is not accurate enough: a nearer view is expected.
   bool uncertain = false;
   bool inconsistent = false;  // the other loops contradict it
-  // The loop waits for another keyframe that confirms it.
+  // The loop waits for confirmation by another keyframe.
   bool waits = false;
 };
 
-// Closes the loops of one map as it grows. It verifies the candidates that an index of places
-// proposes, compares them with the drift of odometry and the loops there are, and makes a
-// correction.
+// Closes the loops of one map as it grows: verifies the candidates of a place index, compares them
+// with the drift of odometry and the known loops, and computes a correction.
 //
-// Its state is the loops that were closed, with their evidence. It also keeps which keyframes of
-// the last map share many landmarks, which follows from the map. Deterministic; not thread-safe.
+// Its state is the closed loops, with their evidence. It also caches the strong covisibility of the
+// last map. Deterministic; not thread-safe.
 class LoopCloser {
  public:
   LoopCloser(const CameraAndPyramid& imaging, const LoopOptions& options);
 
-  // Looks at the candidates for the newest keyframe, best first, and returns the first loop that
-  // closes. Candidates that share landmarks with the newest keyframe already, or that are not in
-  // the map, are passed over. The returned loop counts as closed at once, and the caller has to
-  // apply the edit.
+  // Tries the candidates for the newest keyframe, best first, and returns the first loop that
+  // closes. Skips candidates that already share landmarks with the newest keyframe, or that are not
+  // in the map. The returned loop counts as closed at once, and the caller must apply the edit.
   //
-  //   cost  VerifyLoop for each candidate; for those that pass, the essential graph once, of which
-  //         only what has changed since the last time is counted (StrongCovisibility::Follow), and
-  //         CloseLoop where odometry and the other loops agree
+  //   cost  VerifyLoop for each candidate; for verified ones, the essential graph once, updated by
+  //         what has changed since the last time (StrongCovisibility::Follow), and CloseLoop if it
+  //         agrees with odometry and the other loops
   std::optional<LoopClosure> Try(const Map& map,
                                  KeyFrameId newest,
                                  std::span<const KeyFrameId> candidates);
 
-  // Adds an edge by which two maps were joined. It takes part in later corrections.
+  // Adds an edge by which two maps were merged. It takes part in later corrections.
   void Know(const LoopEdge& edge) { loops_.push_back(edge); }
 
   const std::vector<LoopEdge>& loops() const { return loops_; }
-  // The results of the last call of Try, one for each candidate that was looked at.
+  // Results of the last call of Try, one for each tried candidate.
   const std::vector<LoopAttempt>& attempts() const { return attempts_; }
+
+  // State needed, beside the map, to continue. Another closer with the same options and state
+  // behaves the same.
+  struct State {
+    std::vector<LoopEdge> loops;
+    std::vector<LoopEdge> waiting;
+    KeyFrameId last_closed;
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.loops, self.waiting, self.last_closed);
+    }
+  };
+  State state() const { return {loops_, waiting_, last_closed_}; }
+  void SetState(const State& state) {
+    loops_ = state.loops;
+    waiting_ = state.waiting;
+    last_closed_ = state.last_closed;
+    covisible_.Forget();
+  }
 
  private:
   class Drifts;
@@ -107,7 +125,7 @@ class LoopCloser {
   std::vector<LoopEdge> loops_;
   std::vector<LoopEdge> waiting_;  // loops seen by one keyframe only, the newest last
   std::vector<LoopAttempt> attempts_;
-  KeyFrameId last_closed_;  // the last query that closed a loop, in whatever map it is
+  KeyFrameId last_closed_;  // last query that closed a loop, in any map
 };
 
 }  // namespace plumbline

@@ -10,29 +10,40 @@
 
 namespace plumbline {
 
-// Why two keyframes are taken to see the same place.
+// Evidence that two keyframes see the same place.
 struct LoopEvidence {
-  int first_matches = 0;  // points + 2 lines whose descriptors are alike
-  // Points that agree with the relative pose, in both keyframes together.
+  int first_matches = 0;  // points + 2 lines with similar descriptors
+  // Points consistent with the relative pose, in both keyframes together.
   int inlier_points = 0;
   int inlier_lines = 0;
-  // Landmarks that should be in view, in both keyframes together.
+  // Landmarks predicted in view, in both keyframes together.
   int tested = 0;
-  // Share of the tested landmarks that a wrong relative pose would find.
+  // Share of the tested landmarks that a wrong relative pose would match.
   double chance_share = 0;
-  // Decimal logarithm of the probability of so many matches by chance.
+  // Decimal logarithm of the probability of this many matches by chance.
   double log10_chance = 0;
   // Matches under another shift of the image / matches found.
   double rival_share = 0;
-  // Deviation of the inliers in the image, along the least axis / height of the image.
+  // Standard deviation of the inliers in the image, along the least axis / height of the image.
   double spread = 0;
-  // Share of the cells that should show landmarks and do.
+  // Share of the cells with predicted landmarks that have matches.
   double area_share = 0;
-  int asked = 0;      // neighbouring keyframes that were asked
-  int confirmed = 0;  // asked keyframes that agree
+  int asked = 0;      // neighbouring keyframes that were tested
+  int confirmed = 0;  // tested keyframes that agree
+
+  template <class Self, class Visitor>
+  static void VisitState(Self& self, const Visitor& visit) {
+    visit(self.first_matches,
+          self.inlier_points,
+          self.inlier_lines,
+          self.tested,
+          self.chance_share,
+          self.log10_chance);
+    visit(self.rival_share, self.spread, self.area_share, self.asked, self.confirmed);
+  }
 };
 
-// A landmark around the query and a landmark around the candidate that are one in the world.
+// Two landmarks, around the query and around the candidate, that are the same in the world.
 template <class LandmarkId>
 struct LandmarkPair {
   LandmarkId in_query, in_candidate;
@@ -43,31 +54,31 @@ struct LandmarkPair {
 // Two keyframes that see the same place, of one map or of two maps, and their relative pose.
 struct LoopEdge {
   KeyFrameId query, candidate;
-  // Takes a place in the camera of the query to the camera of the candidate. Each camera has the
-  // unit that lengths around its keyframe had when the edge was measured (KeyFrame::scale), so that
-  // only motions of a map that scale change it. The scale is 1 where depth is measured.
+  // Transforms points from the camera of the query to the camera of the candidate. Each camera has
+  // the scale of its keyframe when the edge was measured (KeyFrame::scale), so that only motions of
+  // a map with a change of scale affect it. The scale is 1 if depth is measured.
   Similarity3 candidate_from_query;
   // Covariance of the left perturbation [rotation, translation, log scale] of candidate_from_query.
-  // Where depth is measured the last row and column are zero.
+  // If depth is measured the last row and column are zero.
   Matrix7d covariance = Matrix7d::Zero();
   double query_scale = 1, candidate_scale = 1;  // KeyFrame::scale when the edge was measured
-  // Pairs of landmarks that are one, of the query's map and of the candidate's. Each landmark
-  // appears once.
+  // Pairs of the same landmark in the query's map and in the candidate's. Each landmark appears
+  // once.
   std::vector<LandmarkPair<PointId>> points;
   std::vector<LandmarkPair<LineId>> lines;
   LoopEvidence evidence;
 };
 
-// Returns the relative pose in the units that the keyframes have today.
+// Returns the relative pose in the current scales of the keyframes.
 Similarity3 CandidateFromQueryToday(const LoopEdge& edge,
                                     double query_scale_today,
                                     double candidate_scale_today);
 
-// Returns the inverse of the covariance; with measured depth the last row and column are zero.
+// Returns the inverse of the covariance; if depth is measured the last row and column are zero.
 Matrix7d InformationOf(const LoopEdge& edge);
 
 // Returns the similarity from the world of the query's map to that of the candidate's, from the
-// edge and the present poses of both keyframes. For maps that are to be joined.
+// edge and the current poses of both keyframes. For maps to be merged.
 Similarity3 CandidateWorldFromQueryWorld(const Map& query_map,
                                          const Map& candidate_map,
                                          const LoopEdge& edge);

@@ -14,22 +14,22 @@
 
 namespace plumbline {
 
-// Landmarks of two places that may be one, with their matches.
+// Landmarks of two places that may be the same, with their matches.
 struct LoopMatches {
   AlignmentProblem problem;
-  std::vector<LandmarkPair<PointId>> points;  // the pair of each entry of AlignmentProblem::points
-  std::vector<LandmarkPair<LineId>> lines;    // the pair of each entry of AlignmentProblem::lines
+  std::vector<LandmarkPair<PointId>> points;  // pair of each entry of AlignmentProblem::points
+  std::vector<LandmarkPair<LineId>> lines;    // pair of each entry of AlignmentProblem::lines
 };
 
-// The result of searching each place's landmarks in the other's image.
+// Result of searching each place's landmarks in the other's image.
 struct MutualSearch {
   SearchedImage in_candidate;  // landmarks around the query, searched in the candidate's image
   SearchedImage in_query;      // landmarks around the candidate, searched in the query's image
   LoopMatches matches;
 };
 
-// The landmarks that two keyframes and their neighbourhoods show. Landmarks that both sides have in
-// common take no part: two keyframes of one map would only repeat what the map says.
+// Local landmarks of two keyframes. Landmarks common to both sides are ignored: two keyframes of
+// one map would only repeat the map's relative pose.
 class LoopSearch {
  public:
   // The maps must outlive this object; both may be the same map.
@@ -43,12 +43,12 @@ class LoopSearch {
   const LocalLandmarks& query() const { return query_; }
   const LocalLandmarks& candidate() const { return candidate_; }
 
-  // Returns pairs of landmarks of the two keyframes whose features look alike: their descriptors
-  // are nearest to each other, and the second nearest are clearly worse.
+  // Returns pairs of landmarks of the two keyframes whose features match by descriptors: mutual
+  // nearest neighbours, with a clearly worse second nearest.
   LoopMatches MatchDescriptors(const LoopVerificationOptions& options);
 
-  // Searches landmarks where the relative pose predicts them. Pairs that contradict each other (one
-  // landmark with two others) are left out.
+  // Searches landmarks at the projections of the relative pose. Contradictory pairs (one landmark
+  // with two others) are dropped.
   MutualSearch SearchBoth(const Similarity3& candidate_from_query, double radius_px);
 
   // Searches landmarks around one keyframe in the image of a neighbour of the other, and adds the
@@ -60,7 +60,7 @@ class LoopSearch {
                                              const Similarity3& candidate_from_query,
                                              LoopMatches& matches);
 
-  // Removes pairs that contradict each other, and repeated pairs.
+  // Removes contradictory and repeated pairs.
   void DropContradictions(LoopMatches& matches) const;
 
  private:
@@ -78,7 +78,7 @@ class LoopSearch {
   LocalLandmarks query_, candidate_;
   std::vector<PointId> common_points_;  // ordered by id
   std::vector<LineId> common_lines_;
-  // Points in the frames of the two cameras, as far as they were computed.
+  // Cache of points in the frames of the two cameras.
   std::map<PointId, CameraPoint> in_query_, in_candidate_;
 };
 

@@ -8,33 +8,33 @@ namespace plumbline {
 
 // Limits for two keyframes to count as seeing the same place.
 struct LoopVerificationOptions {
-  // Covisible keyframes whose landmarks are searched for as well.
+  // Number of covisible keyframes whose landmarks are searched as well.
   int neighbours = 8;
-  // Largest Hamming distance of the descriptors that start the search.
+  // Largest Hamming distance of the initial descriptor matches.
   int max_distance = 64;
   double ratio = 0.85;           // largest ratio of the best to the second best distance
-  int min_matches = 10;          // fewest points + 2 lines that match by descriptor alone
+  int min_matches = 10;          // least number of points + 2 lines matched by descriptor alone
   double search_radius_px = 10;  // radius around projections in the first search; 4 in the second
-  int min_inliers = 25;          // fewest points + 2 lines that agree in the end
-  // Decimal logarithm of the probability of so many matches with a wrong relative pose.
+  int min_inliers = 25;          // least number of points + 2 lines that agree in the end
+  // Decimal logarithm of the probability of this many matches with a wrong relative pose.
   double max_log10_chance = -12;
   // Matches under another shift of the image / matches found.
   double max_rival_share = 0.4;
-  // Deviation of the inliers in the image along the least axis / height of the image.
+  // Standard deviation of the inliers in the image along the least axis / height of the image.
   double min_spread = 0.08;
-  // Share of the cells that should show landmarks and do.
+  // Share of the cells with predicted landmarks that have matches.
   double min_area_share = 0.4;
   double max_rotation_sigma_deg = 3;
   double max_translation_sigma = 0.1;  // relative to the depth of the scene
-  // More matches than these do not make the relative pose more certain.
+  // Number of matches beyond which the relative pose does not become more certain.
   int independent_matches = 30;
-  // Neighbouring keyframes that must agree as well.
+  // Number of neighbouring keyframes that must agree as well.
   int confirmations = 2;
   double max_confirming_log10_chance = -3;
 };
 
-// What odometry may have drifted between two consecutive keyframes. The standard deviations are
-// meant to be too large rather than too small.
+// Drift of odometry between two consecutive keyframes. The standard deviations are chosen rather
+// too large than too small.
 struct DriftOptions {
   double rotation_deg = 0.1;               // for each relative pose
   double rotation_per_turn = 0.01;         // in addition, relative to the rotation
@@ -45,13 +45,13 @@ struct DriftOptions {
 };
 
 struct LoopClosingOptions {
-  int strong_covisibility = 60;  // fewest shared landmarks that make an edge of the pose graph
-  int max_candidates = 3;        // candidates that are looked at
-  // A candidate that shares so many landmarks with the query is no loop any more.
+  int strong_covisibility = 60;  // least number of shared landmarks for an edge of the pose graph
+  int max_candidates = 3;        // candidates to be tried
+  // Least number of landmarks shared with the query for which a candidate is no loop any more.
   int min_shared = 10;
-  int pause = 5;  // keyframes after a closure until the next one may follow
-  // A loop whose rotation is known worse waits for a nearer view. Odometry, whose drift is assumed
-  // to be larger than it is, would follow it further than it should.
+  int pause = 5;  // keyframes from a closure to the next possible one
+  // A loop with a larger uncertainty of rotation waits for a nearer view. Odometry, whose assumed
+  // drift is too large, would follow it further than it should.
   double max_rotation_sigma_deg = 0.5;
   double max_odometry_chi2 = 24.3;  // limit for one edge of odometry after the correction
 };

@@ -16,12 +16,12 @@ struct PoseWithCovariance {
 // Returns c_from_b * b_from_a; the estimates count as independent, to first order.
 PoseWithCovariance Compose(const PoseWithCovariance& c_from_b, const PoseWithCovariance& b_from_a);
 
-// Returns a_from_b with the covariance that follows from that of b_from_a, to first order.
+// Returns a_from_b with the covariance of b_from_a propagated to first order.
 PoseWithCovariance Inverse(const PoseWithCovariance& b_from_a);
 
-// Returns the squared Mahalanobis norm of Log(pose): how far a chain of relative poses that comes
-// back to its beginning is from closing. Rigid motions (no variance of the scale) have six degrees
-// of freedom, others seven. Infinite where the covariance is not positive definite.
+// Returns the squared Mahalanobis norm of Log(pose): the closing error of a cycle of relative
+// poses. Rigid motions (no variance of the scale) have six degrees of freedom, others seven.
+// Infinite if the covariance is not positive definite.
 double ClosingChi2(const PoseWithCovariance& a_from_a);
 
 }  // namespace plumbline

@@ -11,20 +11,20 @@
 
 namespace plumbline {
 
-// The finding that a map of one camera has the same things in two sizes.
+// Evidence that a map of one camera shows the same place at two scales.
 struct ScaleConflict {
   KeyFrameId older;
-  double scale = 1;  // lengths around the older keyframe / the same lengths around the newest
+  double scale = 1;  // scale around the older keyframe / scale around the newest
 };
 
-// Looks for an older keyframe of a map of one camera, among `candidates`, that shows the same
-// things as the newest keyframe (VerifyLoop) but at least twice as large or half as large in the
-// map. The difference must be certain by five deviations of the measurement and of the drift of the
-// scale along the keyframes between (DriftOptions::log_scale). All frames between may have been
-// tracked: every keyframe agrees with the one before it, and still the unit of the map runs away.
-// Landmarks that both keyframes show take no part, since the map has one size for them.
+// Searches `candidates` for an older keyframe of a map of one camera that shows the same place as
+// the newest keyframe (VerifyLoop) but at least twice as large or half as large in the map. The
+// difference must exceed five standard deviations of the measurement and of the drift of the scale
+// along the keyframes between (DriftOptions::log_scale). All frames between may have been tracked:
+// every keyframe is consistent with the one before it, and still the scale of the map drifts away.
+// Landmarks of both keyframes are ignored, since the map has one size for them.
 //
-//   cost  VerifyLoop for each candidate: about 5 ms where it is refused
+//   cost  VerifyLoop for each candidate: about 5 ms for a refused one
 std::optional<ScaleConflict> FindScaleConflict(const Map& map,
                                                KeyFrameId newest,
                                                std::span<const KeyFrameId> candidates,

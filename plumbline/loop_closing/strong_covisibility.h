@@ -10,25 +10,25 @@
 
 namespace plumbline {
 
-// The pairs of keyframes of a map that share many landmarks, kept up to date as the map changes.
+// Pairs of keyframes of a map that share many landmarks, updated as the map changes.
 //
-// How many landmarks a pair shares depends on the matches of these two keyframes alone, since a
-// landmark is observed by exactly the keyframes that match it (Map::CheckInvariants). A change of
-// one of them changes its page of the table of keyframes, but not the page of the other one. Pairs
-// are therefore counted anew where either of the two is in a page that has changed.
+// The number of landmarks that a pair shares depends on the matches of these two keyframes alone,
+// since a landmark is observed by exactly the keyframes that match it (Map::CheckInvariants). A
+// change of one of them changes its page of the table of keyframes, but not the page of the other
+// one. Pairs are therefore counted again if either of the two is in a changed page.
 class StrongCovisibility {
  public:
-  // strong: fewest points and lines that both keyframes of a pair show.
+  // strong: least number of points and lines shown by both keyframes of a pair.
   explicit StrongCovisibility(int strong) : strong_(strong) {}
 
-  // Brings the pairs up to date with a map. They are the same, whatever was followed before: what
-  // was counted is used only where the map has the token of the last call.
+  // Updates the pairs for a map. The result does not depend on earlier calls: earlier counts are
+  // used only if the map has the token of the last call.
   //
-  //   cost  nothing where no keyframe has changed; otherwise the observations of the landmarks that
-  //         the keyframes of changed pages show, and a look at each pair and each page
+  //   cost  none if no keyframe has changed; otherwise the observations of the landmarks of the
+  //         keyframes of changed pages, and a visit of each pair and each page
   void Follow(const Map& map);
 
-  // Forgets what was counted, so that Follow() begins anew.
+  // Discards all counts, so that Follow() begins anew.
   void Forget();
 
   // Returns the earlier keyframes that share many landmarks with a keyframe of the map, ascending.
@@ -39,7 +39,7 @@ class StrongCovisibility {
   void Take(KeyFrameId earlier, KeyFrameId later);
 
   int strong_;
-  std::shared_ptr<const char> token_;                // Map::token() of the map that is followed
+  std::shared_ptr<const char> token_;                // Map::token() of the followed map
   std::uint64_t changes_ = 0;                        // IdTable::changes() of its keyframes
   std::vector<std::vector<KeyFrameId>> earlier_of_;  // by id
 };

@@ -15,14 +15,14 @@
 
 namespace plumbline {
 
-// Why two keyframes are not taken to see the same place.
+// Reason why two keyframes are not accepted as the same place.
 enum class LoopRefusal {
-  kFewMatches,   // few features look alike
-  kNoAgreement,  // the features that look alike agree on no relative pose
-  kFewInliers,   // few landmarks are found where the relative pose predicts them
-  kLoose,        // the matches leave the relative pose open
-  kChance,       // a wrong relative pose might find as much
-  kRepeated,     // another shift of the image finds nearly as much
+  kFewMatches,   // few features match by descriptor
+  kNoAgreement,  // the descriptor matches agree on no relative pose
+  kFewInliers,   // few landmarks are found at their predicted projections
+  kLoose,        // the matches leave the relative pose undetermined
+  kChance,       // a wrong relative pose might match as many
+  kRepeated,     // another shift of the image matches nearly as many
   kNarrow,       // all matches lie in one small part of the image
   kUnconfirmed,  // neighbouring keyframes do not confirm it
 };
@@ -38,24 +38,24 @@ constexpr auto EnumNames(std::type_identity<LoopRefusal>) {
                     std::pair{LoopRefusal::kUnconfirmed, "unconfirmed"}};
 }
 
-// Decides whether two keyframes, of one map or of two, see the same place, and finds their relative
-// pose: a similarity with one camera (baseline 0), otherwise a rigid motion.
+// Verifies that two keyframes, of one map or of two, see the same place, and estimates their
+// relative pose: a similarity with one camera (baseline 0), otherwise a rigid motion.
 //
-// Landmarks of the two whose features look alike give a first relative pose (AlignByRansac). With
-// it the landmarks around each keyframe are searched in the other's image, and the relative pose is
-// refined from the matches, points and lines together (RefineAlignment). Both is repeated with a
-// smaller search radius. Landmarks that both keyframes show already (of one map) take no part.
+// Landmarks of the two matched by descriptors give a first relative pose (AlignByRansac). With it
+// the landmarks around each keyframe are searched in the other's image, and the relative pose is
+// refined from the matches, points and lines together (RefineAlignment). Both steps are repeated
+// with a smaller search radius. Landmarks already shown by both keyframes (of one map) are ignored.
 //
-// The result is believed where so many matches cannot be chance: their number is compared, by the
-// tail of the binomial distribution, with what the same search would find at the best wrong shift
-// of the image. The matches must also cover the image, fix the relative pose, and be found by
-// keyframes beside the query.
+// The result is accepted if the number of matches cannot be chance: it is compared, by the tail of
+// the binomial distribution, with that of the same search at the best wrong shift of the image. The
+// matches must also cover the image, determine the relative pose, and be found by neighbours of the
+// query.
 //
-// The covariance is that of RefineAlignment, but never smaller than what independent_matches would
-// leave, since the errors of a map's landmarks have much in common.
+// The covariance is that of RefineAlignment, but never smaller than with independent_matches, since
+// the errors of a map's landmarks are correlated.
 //
-// Where the query has no neighbours that could be asked, evidence.asked is 0, and the caller must
-// wait for another query. The same input gives the same result.
+// If the query has no neighbours to be tested, evidence.asked is 0, and the caller must wait for
+// another query. The same input gives the same result.
 //
 //   cost  a refused candidate about 5 ms, an accepted one about 30 ms (1000 features)
 Expected<LoopEdge, LoopRefusal> VerifyLoop(const Map& query_map,
