@@ -11,7 +11,7 @@
 
 namespace plumbline {
 
-// The question which keyframes see a landmark of the active map.
+// Query for the keyframes that see a landmark of the active map.
 struct MapQuestion {
   bool is_line = false;
   std::int64_t id = 0;
@@ -21,8 +21,8 @@ struct MapQuestion {
 std::optional<MapQuestion> ParseMapQuestion(std::string_view json);
 
 // Returns {"point": 12, "seen_by": [{"keyframe": 3, "frame": 17, "px": [x, y]}, ...]}, the oldest
-// keyframe first. For a line "px" is [x1, y1, x2, y2] (rectified left image). "seen_by" is empty
-// where there is no such landmark any more. O(keyframes that see it).
+// keyframe first. For a line "px" is [x1, y1, x2, y2] (rectified left image). "seen_by" is empty if
+// the landmark has left the map. O(keyframes that see it).
 std::string AnswerMapQuestion(const Atlas& atlas, const MapQuestion& question);
 
 }  // namespace plumbline

@@ -11,21 +11,21 @@
 
 namespace plumbline {
 
-// Ids of keyframes, points and lines where they are shown: the values of the map's ids.
+// Ids of displayed keyframes, points and lines: the values of the map's ids.
 using ShownId = std::uint32_t;
 
-using ShownPoint = std::array<float, 3>;  // place in the world
+using ShownPoint = std::array<float, 3>;  // position in the world
 
-// A line as it is shown.
+// A line for display.
 struct ShownLine {
   std::array<float, 6> ends{};  // both ends in the world
-  // Whether at least four keyframes see it, as many as a line of the line map needs.
+  // True if at least four keyframes see it, the minimum for a line of the line map.
   bool established = false;
 
   friend bool operator==(const ShownLine&, const ShownLine&) = default;
 };
 
-// A keyframe as it is shown.
+// A keyframe for display.
 struct ShownKeyFrame {
   static constexpr std::uint32_t kOfAnotherRun = 0xFFFFFFFF;
   std::uint32_t frame = 0;  // number of its frame in this run
@@ -35,24 +35,24 @@ struct ShownKeyFrame {
   friend bool operator==(const ShownKeyFrame&, const ShownKeyFrame&) = default;
 };
 
-// The changes of one kind of things since the last look.
+// Changes of one kind of objects since the last comparison.
 template <class T>
 struct ShownChanges {
-  std::vector<std::pair<ShownId, T>> set;  // things that are new or have another place
+  std::vector<std::pair<ShownId, T>> set;  // new or changed objects
   std::vector<ShownId> gone;
 
   bool empty() const { return set.empty() && gone.empty(); }
 };
 
-// The changes of the active map since the last look.
+// Changes of the active map since the last comparison.
 struct MapChanges {
   MapId map;
-  // The map is another one than before: what was shown is to be forgotten.
+  // True if the active map has been replaced: viewers must discard the previous one.
   bool everything = false;
   ShownChanges<ShownPoint> points;
   ShownChanges<ShownLine> lines;
   ShownChanges<ShownKeyFrame> keyframes;
-  // Keyframes that see the same, the newer one first.
+  // Pairs of covisible keyframes, the newer one first.
   std::vector<std::pair<ShownId, ShownId>> edges;
 
   bool empty() const {

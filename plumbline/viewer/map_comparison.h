@@ -12,29 +12,30 @@
 
 namespace plumbline {
 
-// Finds what has changed in the active map of an atlas since the last look. Landmarks that moved by
-// less than a 2000th of their distance from the newest keyframe, half a pixel of most cameras, stay
-// where they were shown until such moves add up. It remembers what it told: 16 bytes a point, 28 a
-// line.
+// Finds the changes of the active map of an atlas since the last comparison. Landmarks that moved
+// by less than a 2000th of their distance from the newest keyframe, half a pixel of most cameras,
+// keep their displayed position until such motions add up. Memory: 16 bytes a point, 28 a line.
 class MapComparison {
  public:
-  // Most keyframes whose neighbours are found in one look; others come with the next looks.
+  // Largest number of keyframes whose neighbours are searched in one comparison; others follow in
+  // the next ones.
   static constexpr std::size_t kNeighboursAtOnce = 16;
-  // Most neighbours of a keyframe that are told: older ones that show most of what it shows.
+  // Largest number of neighbours of a keyframe that are reported: the older ones with most shared
+  // landmarks.
   static constexpr int kNeighbours = 4;
 
-  // session: the one of the run that is shown; keyframes of others are kOfAnotherRun. nullopt: the
-  // map was saved, and each keyframe has the number that it had in its run.
+  // session: that of the displayed run; keyframes of others are kOfAnotherRun. nullopt: a saved
+  // map, whose keyframes have the frame numbers of their own runs.
   explicit MapComparison(std::optional<SessionId> session) : session_(session) {}
 
-  // Finds what changed since the last look, by pages of the map's tables. Cost: some 30 ns for each
-  // landmark of a page in which one changed.
+  // Finds the changes since the last call, by pages of the map's tables. Cost: some 30 ns for each
+  // landmark of a changed page.
   MapChanges Compare(const Atlas& atlas);
-  // Whether there are keyframes left whose neighbours were not searched yet.
+  // Returns true if the neighbours of some keyframes have not been searched yet.
   bool HasMore() const { return !without_neighbours_.empty(); }
 
  private:
-  // What was told of one table, by its pages, and the table's number of changes at that time.
+  // Reported content of one table, by its pages, and the table's number of changes at that time.
   template <class T>
   struct Shown {
     std::vector<std::vector<std::pair<ShownId, T>>> pages;  // each page is ordered by id
@@ -50,7 +51,7 @@ class MapComparison {
   Shown<ShownPoint> points_;
   Shown<ShownLine> lines_;
   Shown<ShownKeyFrame> keyframes_;
-  KeyFrameId newest_;                           // the newest keyframe that was told
+  KeyFrameId newest_;                           // newest reported keyframe
   std::vector<KeyFrameId> without_neighbours_;  // ascending
 };
 

@@ -14,10 +14,9 @@
 
 namespace plumbline {
 
-// A table of things by id, with the version at which each last changed, so that what changed since
-// a version is found without looking at the rest. Things that are gone are remembered until there
-// are more of them than of the others. A receiver with a version from before `forgotten()` needs
-// everything.
+// A table of objects by id, with the version of the last change of each, to find the changes since
+// a version without visiting the rest. Removed objects are remembered until they outnumber the
+// others. A receiver with a version older than `forgotten()` needs everything.
 template <class T>
 class VersionedTable {
  public:
@@ -39,7 +38,7 @@ class VersionedTable {
     if (gone_ > std::max(live_, kAlwaysRemembered)) ForgetGone(version);
   }
 
-  // Returns nullptr where there is no such thing.
+  // Returns nullptr for an unknown id.
   const T* Find(ShownId id) const {
     const auto it = entries_.find(id);
     return it == entries_.end() || !it->second.value ? nullptr : &*it->second.value;
@@ -47,15 +46,15 @@ class VersionedTable {
   std::size_t size() const { return live_; }
   std::uint64_t forgotten() const { return forgotten_; }
 
-  // Calls take(id, value) for all things, in the order of their ids.
+  // Calls take(id, value) for all objects, in the order of their ids.
   template <class Take>
   void ForEach(const Take& take) const {
     for (const auto& [id, entry] : entries_) {
       if (entry.value) take(id, *entry.value);
     }
   }
-  // Calls take(id, value or nullptr) for what changed after `version`, in the order of the last
-  // changes.
+  // Calls take(id, value or nullptr) for the objects changed after `version`, in the order of their
+  // last changes.
   template <class Take>
   void ForEachSince(std::uint64_t version, const Take& take) const {
     const auto first = std::partition_point(
@@ -72,7 +71,7 @@ class VersionedTable {
   static constexpr std::size_t kAlwaysRemembered = 1000;
 
   struct Entry {
-    std::optional<T> value;  // nullopt: the thing is gone
+    std::optional<T> value;  // nullopt: removed
     std::uint64_t version = 0;
   };
 

@@ -18,25 +18,25 @@
 
 namespace plumbline {
 
-// Names a client that asks, for the answer.
+// Identifies a client's call, for the answer.
 struct CallId {
   std::uint64_t client = 0;
   std::uint32_t service = 0, call = 0;
 };
 
-// What clients may ask for in addition to the streams.
+// Actions that clients may request in addition to the streams.
 struct ViewActions {
   std::function<void(bool paused)> pause;
   std::function<void()> step;  // shows one frame while the run is paused
-  // Returns false where too many questions wait already.
+  // Returns false if too many queries are waiting.
   std::function<bool(CallId, const MapQuestion&)> ask;
-  // Asks that ServeAll be called at a time.
+  // Requests a call of ServeAll at a time.
   std::function<void(std::chrono::steady_clock::time_point)> wake_at;
 };
 
-// The connected viewers, in Foxglove's protocol. Each gets the next messages when it has taken
-// those before, at most 30 times a second. A slow viewer thus gets fewer frames, and never has more
-// than one message of each stream on its way. For the thread of the server.
+// The connected viewers, in Foxglove's protocol. Each gets the next messages when it has received
+// the previous ones, at most 30 times a second. A slow viewer thus gets fewer frames, and never has
+// more than one pending message of each stream. For the thread of the server.
 class ViewClients {
  public:
   static constexpr auto kBetweenMessages = std::chrono::milliseconds(33);
@@ -48,13 +48,13 @@ class ViewClients {
   void Closed(WebClient& client) { clients_.erase(&client); }
   void Serve(WebClient& client);
   void ServeAll();
-  // Sends an answer to a client, which may be gone meanwhile.
+  // Sends an answer to a client, if it is still connected.
   void Answer(const CallId& id, const std::string& json);
 
-  // Whether any client wants frames, or the map.
+  // Return true if any client wants frames, or the map.
   bool frames_wanted() const;
   bool map_wanted() const;
-  // Whether all clients have been sent everything.
+  // Returns true if all clients are up to date.
   bool all_served() const;
 
  private:
@@ -75,7 +75,7 @@ class ViewClients {
   ViewState& state_;
   bool can_pause_;
   ViewActions actions_;
-  std::string hello_, channels_, services_;  // what every client gets first
+  std::string hello_, channels_, services_;  // first messages to every client
   std::map<WebClient*, Viewer> clients_;
   std::uint64_t next_number_ = 1;
 };

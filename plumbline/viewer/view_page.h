@@ -7,8 +7,8 @@
 
 namespace plumbline {
 
-// Returns the page that shows a run, one file with its style and scripts in it. CMake makes it part
-// of the library, from view_page.html, view_*.css, view_*.js and what these share with report.html.
+// Returns the page of the viewer, one file with its style and scripts. CMake builds it into the
+// library, from view_page.html, view_*.css, view_*.js and the files shared with report.html.
 std::shared_ptr<const std::string> ViewPage();
 
 }  // namespace plumbline

@@ -9,14 +9,14 @@
 
 namespace plumbline {
 
-// Writes what viewers are sent into an MCAP file: the same channels, for every frame, with the
+// Records the messages of viewers in an MCAP file: the same channels, for every frame, with the
 // stamps of the sensor.
 class ViewRecorder {
  public:
-  // Begins a file. Throws InputError where it cannot be written, as do all functions.
+  // Creates the file. Throws InputError if it cannot be written, as do all functions.
   explicit ViewRecorder(const std::filesystem::path& path);
 
-  // Writes what is new since the last call. To be called after each frame.
+  // Writes the messages new since the last call. Call it after each frame.
   void Record(ViewState& state);
   void Close() { file_.Close(); }
 

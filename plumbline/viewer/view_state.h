@@ -18,13 +18,13 @@
 
 namespace plumbline {
 
-// What is shown of a run in addition to its frames.
+// Description of a run for viewers, in addition to its frames.
 struct ViewedRun {
   std::string name;                            // name of the data
-  RectifiedCamera camera;                      // camera of the left images that are shown
+  RectifiedCamera camera;                      // camera of the displayed left images
   std::optional<std::size_t> frames_expected;  // nullopt: unknown
   bool can_pause = false;
-  bool saved_map = false;  // a map file is shown, and no frame comes
+  bool saved_map = false;  // true: a saved map without frames
 };
 
 // The progress of the run.
@@ -35,39 +35,39 @@ struct ViewedCounts {
   friend bool operator==(const ViewedCounts&, const ViewedCounts&) = default;
 };
 
-// An event that changed the map at large.
+// An event that changed large parts of the map.
 struct ViewedEvent {
   enum class Kind { kLoop, kJoin, kRelocalization };
   Kind kind = Kind::kLoop;
   FrameId frame;
-  // For a relocalization `keyframe` is the one from which the place was found.
+  // For a relocalization `keyframe` is the one that matched.
   KeyFrameId keyframe, older;
   int points = 0, lines = 0;
   double moved = 0;
 };
 
-// How much one receiver has got of what there is.
+// State of one receiver: the last messages that it got.
 struct ViewCursor {
   std::array<std::uint64_t, kStreams> frame{};   // serial number of the last frame in each stream
   std::uint64_t map = 0, points = 0, lines = 0;  // versions
   std::int64_t points_at_ns = 0;                 // time at which it got the points
   std::size_t events = 0;
-  std::uint64_t run = 0;  // serial number of what is said about the run
+  std::uint64_t run = 0;  // serial number of the description of the run
 };
 
 using SharedBytes = std::shared_ptr<const std::string>;
 
-// What can be seen of a run at present, and the messages that tell it. A message is made when it is
-// first asked for, and shared by all who ask for the same. For one thread.
+// Current state of a run for viewers, and its messages. A message is made at its first request, and
+// shared by all receivers that request the same. Not thread-safe.
 class ViewState {
  public:
-  // Room for pictures of keyframes.
+  // Memory for images of keyframes.
   static constexpr std::size_t kKeptBytes = std::size_t{64} << 20U;
   static constexpr std::int64_t kBetweenCloudsNs = 1'000'000'000;
 
   explicit ViewState(ViewedRun run) : run_(std::move(run)) {}
 
-  // Takes a frame, which must have features.
+  // Sets the current frame, which must have features.
   void Take(ViewedFrame frame);
   void Take(const ViewedCounts& counts);
   void Take(const MapChanges& changes) { map_.Take(changes); }
@@ -75,13 +75,13 @@ class ViewState {
   void SetPaused(bool paused);
   void SetFinished();
 
-  // Returns the message of the stream that the receiver lacks, and counts it as received; null
-  // where there is nothing new, or not yet. `now_ns` may be of any clock that the receiver keeps
-  // to.
+  // Returns the next message of the stream for the receiver, and counts it as received; null if
+  // nothing is new, or if it is not due yet. `now_ns` may be of any clock, the same in all calls of
+  // a receiver.
   SharedBytes Next(Stream stream, ViewCursor& cursor, std::int64_t now_ns);
 
-  // Returns plumbline.Frame of a keyframe of the map with its image; null where that is not kept.
-  // The newest kKeptBytes of this run are kept.
+  // Returns plumbline.Frame of a keyframe of the map with its image; null if that is not stored.
+  // The newest kKeptBytes of this run are stored.
   SharedBytes KeyFramePicture(ShownId keyframe) const;
 
   std::int64_t stamp_ns() const { return shown_.stamp_ns(); }
@@ -101,9 +101,9 @@ class ViewState {
 
   ViewedRun run_;
   ViewedCounts counts_;
-  ViewedFrame shown_;                // the last frame
-  std::optional<std::string> jpeg_;  // JPEG file of the frame shown
-  std::uint64_t serial_ = 0;         // serial number of the frame shown; 0: none
+  ViewedFrame shown_;                // last frame
+  std::optional<std::string> jpeg_;  // JPEG file of that frame
+  std::uint64_t serial_ = 0;         // serial number of that frame; 0: none
   std::uint64_t run_serial_ = 1;
   bool paused_ = false, finished_ = false;
   ViewedMap map_;
@@ -112,7 +112,7 @@ class ViewState {
   std::size_t picture_bytes_ = 0;
   std::array<SharedBytes, kStreams> made_;  // last message of each stream
   std::uint64_t points_made_ = 0;           // version of the points in that message
-  // What the receiver has before and after the last message of lines, and the last update.
+  // Versions of the receiver before and after the last message of lines, and the last update.
   std::pair<std::uint64_t, std::uint64_t> lines_made_;
   std::pair<UpdateState, UpdateState> update_made_;
 };

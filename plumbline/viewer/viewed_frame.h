@@ -11,7 +11,7 @@
 
 namespace plumbline {
 
-// A frame as it is shown to viewers.
+// A frame for display.
 struct ViewedFrame {
   FrameRecord record;
   GrayImage image;  // rectified left; may be missing
@@ -19,19 +19,19 @@ struct ViewedFrame {
   std::shared_ptr<const FrameFeatures> indexed;
   std::vector<PointId> points;  // landmark of each feature, an invalid id for none
   std::vector<LineId> lines;
-  Rigid3 world_from_camera;  // rectified left camera, where it was tracked
+  Rigid3 world_from_camera;  // rectified left camera, if tracked
 
   bool is_tracked() const { return record.status == FrameStatus::kTracked; }
   std::int64_t stamp_ns() const { return record.stamp_ns; }
 };
 
-// Copies what is to be shown, mostly the image: 0.1 ms.
+// Copies the displayed parts, mostly the image: 0.1 ms.
 ViewedFrame ViewedFrameOf(const FrameRecord& record, const FrameView& view);
 // Returns a keyframe of a saved map, which has no image.
 ViewedFrame ViewedFrameOf(const KeyFrame& keyframe);
 
-// Returns the image as a JPEG file, some 2 ms for 752 x 480; empty where there is no image, or one
-// with a side longer than kLongestJpegSide.
+// Returns the image as a JPEG file, some 2 ms for 752 x 480; empty if the image is empty or has a
+// side longer than kLongestJpegSide.
 std::string JpegOf(const GrayImage& image);
 
 // Returns matched points, other points, matched lines and other lines, in the colours of the

@@ -16,8 +16,8 @@
 
 namespace plumbline {
 
-// The map as viewers are shown it, in versions. What a viewer lacks is what changed after the
-// version that it has. For one thread.
+// The displayed map, in versions. A viewer needs the changes after the version that it has. Not
+// thread-safe.
 class ViewedMap {
  public:
   void Take(const MapChanges& changes);
@@ -25,11 +25,11 @@ class ViewedMap {
   // Returns a number that grows with every change; 0 before the first.
   std::uint64_t version() const { return version_; }
   MapId id() const { return id_; }
-  // Returns nullptr where there is no such keyframe.
+  // Returns nullptr for an unknown keyframe.
   const ShownKeyFrame* FindKeyFrame(ShownId id) const { return keyframes_.Find(id); }
 
-  // Returns the field `map` of plumbline.Update for a receiver that has version `from`; 0 asks for
-  // everything. In the message `from` is 0, too, where the receiver has to forget what it has.
+  // Returns the field `map` of plumbline.Update for a receiver that has version `from`; 0 requests
+  // everything. In the message `from` is 0, too, if the receiver must discard its content.
   ProtobufWriter DeltaSince(std::uint64_t from) const;
 
   // Returns x, y, z of all points.
@@ -37,9 +37,9 @@ class ViewedMap {
   // Returns the version of the last change of points.
   std::uint64_t points_version() const { return points_version_; }
 
-  // The lines in cubes of space, for the cubes that changed after a version.
+  // Lines in cubes of space (tiles), for the cubes that changed after a version.
   struct Tiles {
-    // True where these are all cubes, so that others are gone.
+    // True if these are all cubes, which replace all earlier ones.
     bool all = false;
     std::vector<LineEntity> entities;
   };
@@ -64,7 +64,7 @@ class ViewedMap {
 
   MapId id_;
   std::uint64_t version_ = 0;
-  // Version with which this map began; earlier ones were of another map.
+  // First version of this map; earlier ones belong to another map.
   std::uint64_t begins_ = 0;
   std::uint64_t points_version_ = 0, lines_version_ = 0;
   VersionedTable<ShownPoint> points_;
@@ -72,7 +72,7 @@ class ViewedMap {
   VersionedTable<ShownKeyFrame> keyframes_;
   std::map<std::pair<ShownId, ShownId>, std::uint64_t> edges_;  // version of each edge
   float tile_size_ = 1;
-  std::uint64_t tiles_begin_ = 0;  // version with which the present tiles began
+  std::uint64_t tiles_begin_ = 0;  // first version of the current tiles
   std::map<TileKey, Tile> tiles_;
   std::map<ShownId, TileKey> tile_of_;
 };

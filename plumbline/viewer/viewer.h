@@ -29,31 +29,32 @@
 namespace plumbline {
 
 struct ViewerOptions {
-  std::optional<WebAccess> access;  // where to listen; nullopt: nowhere
+  std::optional<WebAccess> access;  // address to listen on; nullopt: none
   // MCAP file that records the same channels.
   std::optional<std::filesystem::path> record;
-  // Whether the run waits until a frame can be recorded; otherwise the frame is left out.
+  // True: the run waits until a frame can be recorded; false: frames may be dropped.
   bool record_all = false;
 };
 
-// Shows a run, or a saved map, in browsers and in programs that know Foxglove's protocol, while it
-// goes on, and records what they would be sent. One thread of low priority encodes and sends
-// everything. The threads of the run hand over copies: of a frame while somebody looks or where it
-// is a keyframe, and of what changed in the map while somebody looks. Results do not depend on it.
+// Shows a run in progress, or a saved map, in browsers and in programs with Foxglove's protocol,
+// and records the same messages. One thread of low priority encodes and sends everything. The
+// threads of the run pass copies: of a frame if a viewer is connected or if it is a keyframe, and
+// of the changes of the map while a viewer is connected. Results of the run do not depend on it.
 class Viewer {
  public:
-  static constexpr std::size_t kMostFramesWaiting = 8;  // when more wait, the oldest is left out
-  // The map is looked at so seldom that this takes at most a 20th of the time.
+  static constexpr std::size_t kMostFramesWaiting = 8;  // beyond it, the oldest is dropped
+  // Rest after each comparison of the map, in multiples of its duration: at most a 20th of the
+  // time.
   static constexpr int kRestAfterLook = 20;
 
-  // Begins to listen. Throws InputError where that is not possible, or the file cannot be written.
-  // `session` is that of MapComparison. `picture` returns plumbline.Frame of keyframes of which no
-  // frame was shown; it may be empty.
+  // Starts to listen. Throws InputError if that is impossible, or if the file cannot be written.
+  // `session` is that of MapComparison. `picture` returns plumbline.Frame of keyframes without a
+  // displayed frame; it may be empty.
   Viewer(const ViewerOptions& options,
          const ViewedRun& run,
          std::optional<SessionId> session,
          std::function<SharedBytes(ShownId keyframe)> picture = {});
-  // Ends all connections and completes the recording.
+  // Closes all connections and completes the recording.
   ~Viewer();
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
@@ -61,38 +62,36 @@ class Viewer {
   // Returns the address for a browser.
   std::string url() const { return server_.url(); }
 
-  // --- in the thread that tracks ---
+  // --- in the tracking thread ---
 
-  // Takes a frame; to be called after each frame. relocalizations: all so far.
+  // Shows a frame; call it after each frame. relocalizations: all so far.
   void Show(const FrameRecord& record,
             const FrameView& view,
             std::span<const Relocalization> relocalizations);
-  // Returns whether ReadMaps is to be called soon, in the thread that maps; true only once for
-  // each call of that. new_keyframe: the map has changed, or will.
+  // Returns true if ReadMaps should be called soon, in the mapping thread; only once for each call
+  // of ReadMaps. new_keyframe: the map has changed, or will.
   bool WantsMaps(bool new_keyframe);
-  // Takes over what changed in the map, and answers questions about it.
+  // Reads the changes of the map, and answers queries about it.
   void ReadMaps(const Atlas& atlas, const MapEvents& events);
 
-  // --- in the thread that feeds ---
+  // --- in the thread that reads frames ---
 
-  // Returns whether the next frame is to wait: somebody paused the run and has not asked for a
-  // step.
+  // Returns true if the next frame must wait: a viewer paused the run and has not requested a step.
   bool HoldsBack();
 
-  // To be called when the run is complete. Shows the maps as they are and waits, at most a second,
-  // until all viewers have got them. No other function may be called at the same time.
+  // Call it when the run is complete. Shows the final maps and waits, at most a second, until all
+  // viewers have received them. No other function may be called at the same time.
   void Finish(const Atlas& atlas, const MapEvents& events);
 
-  // Returns what went wrong in the thread of the viewer, which then no longer serves or records;
-  // only once.
+  // Returns the failure of the viewer's thread, which then no longer serves or records; only once.
   std::optional<std::string> TakeFailure();
-  // Returns why there is no complete recording; nullopt where there is one, or none was asked for.
+  // Returns why the recording is incomplete; nullopt if it is complete, or none was requested.
   std::optional<std::string> RecordingFailure();
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  // What the run hands to the viewer's thread.
+  // Data passed from the run to the viewer's thread.
   struct Mail {
     ViewedCounts counts;
     std::deque<ViewedFrame> frames;
@@ -106,7 +105,7 @@ class Viewer {
   ViewActions Actions();
   std::optional<WebFile> Get(std::string_view path) const;
   void RunServer();
-  void Wake();  // to be called with the mutex held
+  void Wake();  // requires the mutex
   void Deliver();
   void NoteWishes();
   void Record();
@@ -114,13 +113,13 @@ class Viewer {
   void FailRecording(const std::string& why);
 
   ViewState state_;
-  std::unique_ptr<ViewRecorder> recorder_;  // null: nothing is recorded
+  std::unique_ptr<ViewRecorder> recorder_;  // null: no recording
   std::atomic<bool> recording_;
   bool can_pause_;
   std::function<SharedBytes(ShownId)> picture_;
   ViewClients clients_;
   WebServer server_;
-  std::optional<Clock::time_point> wake_at_;  // time at which waking was asked for
+  std::optional<Clock::time_point> wake_at_;  // requested time to wake up
   std::atomic<bool> frames_wanted_ = false, map_wanted_ = false, paused_ = false;
   std::atomic<int> steps_ = 0;
 
@@ -132,16 +131,16 @@ class Viewer {
   std::vector<std::pair<CallId, MapQuestion>> questions_;
   std::optional<std::string> failure_, recording_failure_;
   bool broken_ = false;            // the thread has ended
-  std::size_t not_recorded_ = 0;   // frames that were not recorded
-  bool looking_ = false;           // ReadMaps is to be called
-  bool map_is_to_be_seen_ = true;  // a part of the map has not been looked at
+  std::size_t not_recorded_ = 0;   // number of frames not recorded
+  bool looking_ = false;           // ReadMaps should be called
+  bool map_is_to_be_seen_ = true;  // a part of the map has not been read
   Clock::time_point next_look_;
-  std::size_t loops_ = 0, joins_ = 0, relocalizations_ = 0;  // numbers that were told
+  std::size_t loops_ = 0, joins_ = 0, relocalizations_ = 0;  // reported numbers
   ViewedCounts counts_;
   std::deque<Clock::time_point> arrivals_;  // arrival times of the last frames
 
   MapComparison comparison_;  // used by the thread that maps
-  std::jthread thread_;       // declared last, so that it ends before what it uses
+  std::jthread thread_;       // declared last: it ends before the members that it uses
 };
 
 }  // namespace plumbline

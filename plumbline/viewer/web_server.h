@@ -20,7 +20,7 @@ struct WebFile {
   std::shared_ptr<const std::string> bytes;
 };
 
-// A WebSocket while it is open.
+// An open WebSocket.
 class WebClient {
  public:
   WebClient() = default;
@@ -31,15 +31,15 @@ class WebClient {
   virtual void SendText(std::string text) = 0;
   // Sends `head` and `body` in one message; `body` is not copied.
   virtual void SendBinary(std::string head, std::shared_ptr<const std::string> body) = 0;
-  // Returns the number of messages that the system has not taken yet. A client that lets
-  // kMostWaiting of them pile up is closed.
+  // Returns the number of messages that the system has not accepted yet. A client with kMostWaiting
+  // of them is closed.
   virtual std::size_t waiting() const = 0;
   static constexpr std::size_t kMostWaiting = 64;
 };
 
-// Functions that handle what comes in; all are called in the thread of Run().
+// Handlers of requests and messages, all called in the thread of Run().
 struct WebEvents {
-  // Returns the file at a path ("/"); nullopt where there is none.
+  // Returns the file at a path ("/"); nullopt if it does not exist.
   std::function<std::optional<WebFile>(std::string_view path)> get;
   std::function<void(WebClient&)> opened;
   std::function<void(WebClient&, std::string_view message, bool binary)> received;
@@ -51,36 +51,35 @@ struct WebServerLoop;
 struct WebServerCore;
 
 // A web server for a page, its files and WebSockets of Foxglove's protocol, in one thread. It
-// answers only GET and HEAD, so that nobody can write anything. At most kMostConnections are open
-// at once; more are closed as they come. Clients are closed that are silent for ten seconds before
-// a request, or for a minute after the pings of a WebSocket, or that send what is no request.
-// Requests are limited to 8 kB, messages to 64 kB.
+// answers only GET and HEAD, so that it is read-only. At most kMostConnections are open at once;
+// further ones are closed immediately. Clients are closed if silent for ten seconds before a
+// request, or for a minute after the pings of a WebSocket, or after an invalid request. Requests
+// are limited to 8 kB, messages to 64 kB.
 class WebServer {
  public:
   static constexpr std::size_t kMostConnections = 64;
 
-  // Begins to listen; without `access` it listens nowhere and only does what is posted. Throws
-  // InputError where listening is not possible: "127.0.0.1:80: ...".
+  // Starts to listen; without `access` it does not listen and only runs posted work. Throws
+  // InputError if listening fails: "127.0.0.1:80: ...".
   WebServer(const std::optional<WebAccess>& access, WebEvents events);
   ~WebServer();
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
 
-  // Returns the address of a server that listens, "http://127.0.0.1:8080/", with the token.
+  // Returns the address of a listening server, "http://127.0.0.1:8080/", with the token.
   std::string url() const;
 
   // Serves until Stop() is called.
   void Run();
-  // Calls `work` in the thread of Run, soon or at a time. May be called in any thread.
+  // Calls `work` in the thread of Run, soon or at a time. Thread-safe.
   void Post(std::function<void()> work);
   void PostAt(std::chrono::steady_clock::time_point time, std::function<void()> work);
-  // Tells the clients that there will be no more, and ends Run within a second. May be called in
-  // any thread.
+  // Announces the end to the clients, and ends Run within a second. Thread-safe.
   void Stop();
 
  private:
   std::unique_ptr<WebServerLoop> loop_;
-  std::shared_ptr<WebServerCore> core_;  // shared with what is open; released before the loop
+  std::shared_ptr<WebServerCore> core_;  // shared with open connections; released before the loop
 };
 
 }  // namespace plumbline
