@@ -17,9 +17,9 @@
 
 namespace plumbline {
 
-// Messages of Foxglove's schemas in protobuf. The frames of coordinates are "map", the world of the
+// Messages of Foxglove's schemas in protobuf. The coordinate frames are "map", the world of the
 // active map, and "camera", the rectified left camera (x right, y down, z forward); the right
-// camera is told by its distance from it, as in ROS. Stamps are those of the sensor in nanoseconds.
+// camera is given by the baseline, as in ROS. Stamps are those of the sensor in nanoseconds.
 
 inline constexpr std::string_view kMapFrame = "map";
 inline constexpr std::string_view kCameraFrame = "camera";
@@ -57,10 +57,10 @@ std::string AnnotationsMessage(std::int64_t stamp_ns, std::span<const ImageMarks
 // `xyz` has x, y, z of every point, one after the other.
 std::string PointCloudMessage(std::int64_t stamp_ns, std::span<const float> xyz);
 
-// Lines that are shown and replaced together.
+// Lines that are displayed and replaced together.
 struct LineEntity {
   std::string id;
-  // Six numbers for each line; empty where the entity is gone.
+  // Six numbers for each line; empty if the entity was removed.
   std::vector<float> ends;
 };
 std::string SceneUpdateMessage(std::int64_t stamp_ns,

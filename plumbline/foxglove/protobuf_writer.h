@@ -14,7 +14,7 @@
 namespace plumbline {
 
 // Writes the fields of one message in the wire format of protobuf, in the order of the calls. A
-// field that is not written has its default value when it is read: zero, empty, false.
+// reader gives missing fields their default value: zero, empty, false.
 class ProtobufWriter {
  public:
   // Writes int32, int64, uint32, uint64, bool and enumerations; negative numbers take ten bytes.
@@ -43,8 +43,8 @@ class ProtobufWriter {
   ProtobufWriter& Message(std::uint32_t field, const ProtobufWriter& message) {
     return Bytes(field, message.bytes_);
   }
-  // Writes a repeated field of float, double, fixed32 or sfixed32 in one piece; writes nothing
-  // where it is empty.
+  // Writes a packed repeated field of float, double, fixed32 or sfixed32; writes nothing if it is
+  // empty.
   template <class T>
   requires std::same_as<T, float> || std::same_as<T, double> || std::same_as<T, std::uint32_t> ||
       std::same_as<T, std::int32_t>

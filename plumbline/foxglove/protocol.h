@@ -15,10 +15,10 @@
 
 namespace plumbline {
 
-// The messages of Foxglove's WebSocket protocol (github.com/foxglove/ws-protocol) that a server of
-// channels and services sends and receives. Clients cannot publish.
+// Messages of Foxglove's WebSocket protocol (github.com/foxglove/ws-protocol) for a server of
+// channels and services. Clients cannot publish.
 
-// The subprotocols that are understood, the best first. They agree in everything that is used here.
+// Supported subprotocols, the best first. They agree in everything used here.
 inline constexpr std::array<std::string_view, 2> kFoxgloveSubprotocols = {"foxglove.sdk.v1",
                                                                           "foxglove.websocket.v1"};
 
@@ -32,13 +32,13 @@ struct FoxgloveService {
 
 // session: a text that differs for every run of the server.
 std::string ServerInfoText(std::string_view name, std::string_view session);
-// The ids of channels and services are their places in the lists, from 1 on.
+// The ids of channels and services are their positions in the lists, from 1 on.
 std::string AdvertiseText(std::span<const FoxgloveChannel> channels, std::string_view schemas);
 std::string AdvertiseServicesText(std::span<const FoxgloveService> services);
 enum class StatusLevel { kInfo = 0, kWarning = 1, kError = 2 };
 std::string StatusText(StatusLevel level, std::string_view message);
-// Returns the head that precedes the message in binary message data. received_ns: time at which the
-// server got the message.
+// Returns the header of a binary message data message. received_ns: time at which the server got
+// the message.
 std::string MessageDataHead(std::uint32_t subscription, std::int64_t received_ns);
 std::string ServiceAnswer(std::uint32_t service, std::uint32_t call, std::string_view json);
 std::string ServiceFailureText(std::uint32_t service, std::uint32_t call, std::string_view message);
@@ -60,13 +60,13 @@ struct ServiceCall {
   std::uint32_t call = 0;
   std::string json;
 };
-// A part of the protocol that this server does not offer.
+// A part of the protocol that this server does not support.
 struct NotOffered {
   std::string what;
 };
 using ClientMessage = std::variant<Subscribe, Unsubscribe, ServiceCall, NotOffered>;
 
-// Return nullopt where the message is none of the protocol.
+// Return nullopt for an invalid message.
 std::optional<ClientMessage> ParseClientText(std::string_view text);
 std::optional<ClientMessage> ParseClientBinary(std::string_view bytes);
 
