@@ -11,10 +11,9 @@
 
 namespace plumbline {
 
-// Returns what is known about a source called `name` that offers data for these sensors, the
-// richest first, with the camera file of the options. Throws InputError where that file is not
-// named, where it has one camera but two are needed, or where the source does not offer the sensor
-// asked for.
+// Returns the description of a source called `name` with data for these sensors, the richest first,
+// with the camera file of the options. Throws InputError if that file is not given, if it has one
+// camera but two are needed, or if the source does not offer the requested sensor.
 DatasetInfo DescribeLive(const std::string& name,
                          std::vector<SensorKind> available,
                          const LiveOptions& options);

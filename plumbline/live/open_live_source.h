@@ -15,8 +15,8 @@ namespace plumbline {
 //                    device: "camera:/dev/video2" (capture_source.h)
 //   rtsp://...       a network stream, also rtsps://
 //   gst:PIPELINE     the output of a GStreamer pipeline
-// Throws InputError where there is no such source, no camera file is named, or images have another
-// size than it says.
+// Throws InputError if the source does not exist, if no camera file is given, or if images have
+// another size than calibrated.
 std::unique_ptr<LiveSource> OpenLiveSource(const std::string& name, const LiveOptions& options);
 
 }  // namespace plumbline

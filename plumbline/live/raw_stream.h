@@ -8,8 +8,8 @@
 
 namespace plumbline {
 
-// Frames that another program writes into a pipe. Lines of text (ASCII, ended by \n) say what
-// comes, pixels follow as bytes:
+// Frames from another program through a pipe. Lines of text (ASCII, ended by \n) announce the
+// content, pixels follow as bytes:
 //
 //   plumbline frames 1
 //   left mono8 752 480
@@ -23,12 +23,11 @@ namespace plumbline {
 //   missing 1403636592913555456     a frame that the sender could not get
 //
 // Encodings and their bytes: raw_pixels.h, 16 and 32 bits little-endian. Rows have no padding.
-// Images come in the order of the header. The end of the stream is the end of the run; one in the
-// middle of a frame loses that frame only.
+// Images come in the order of the header. The end of the stream is the end of the run; an end
+// within a frame loses that frame only.
 //
-// Reads the header from the file descriptor, which stays open. Data that are not in this form throw
-// an InputError that begins with "standard input:". A wrong header throws at once, a wrong frame
-// when Next comes to it.
+// Reads the header from the file descriptor, which stays open. Data in another format throw an
+// InputError that begins with "standard input:": a wrong header at once, a wrong frame in Next.
 std::unique_ptr<LiveSource> OpenRawStream(int descriptor, const LiveOptions& options);
 
 }  // namespace plumbline
