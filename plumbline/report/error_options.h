@@ -7,9 +7,9 @@
 
 namespace plumbline {
 
-// Returns how the trajectory of a run is compared with the ground truth of its data, where the user
-// does not say otherwise. The scale is free where the run is of a single camera. Reference poses
-// are interpolated over gaps that are usual in data of this format.
+// Returns the default comparison of a run's trajectory with the ground truth of its data. The scale
+// is free for a single camera. Reference poses are interpolated over gaps that are usual in data of
+// this format.
 TrajectoryErrorOptions ErrorOptionsFor(SensorKind sensor, DatasetFormat format);
 
 }  // namespace plumbline

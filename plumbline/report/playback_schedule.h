@@ -10,22 +10,23 @@
 
 namespace plumbline {
 
-// When the frames of a recording that is played live are read and given out. They are due as far
-// apart as they were taken, however long the recording is silent in between; the first one is due
-// as soon as it has been read. Each later one is read as long before it is due as reading takes
-// (reading_time.h). Asks no clock itself.
+// Schedule of reading and delivering the frames of a recording played live. They are due at the
+// intervals of their stamps, however long the pauses of the recording; the first one is due as soon
+// as it has been read. Each later one is read ahead by the time that reading takes
+// (reading_time.h). Reads no clock itself.
 class PlaybackSchedule {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // Returns when to begin to read the frame of this stamp: for the first frame a time long past.
+  // Returns the time to begin reading the frame of this stamp: for the first frame a time long
+  // past.
   Clock::time_point ReadAt(std::int64_t stamp_ns) const;
-  // Returns when the frame of this stamp is due, which was read from `begin` to `end`, or could not
-  // be read in this time. A frame that took longer than expected delays no others.
+  // Returns the due time of the frame of this stamp, which was read, or failed to be read, from
+  // `begin` to `end`. A frame that took longer than expected delays no others.
   Clock::time_point DueOnceRead(std::int64_t stamp_ns,
                                 Clock::time_point begin,
                                 Clock::time_point end);
-  // All frames to come are due that much later. Before the first frame nothing is to be delayed.
+  // Shifts the schedule of all later frames by `pause`. Does nothing before the first frame.
   void Delay(Clock::duration pause);
 
  private:

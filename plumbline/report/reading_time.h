@@ -7,17 +7,17 @@
 
 namespace plumbline {
 
-// How long reading a frame of a recording takes, as far as the last frames tell. A recording that
-// is played live is read so long before a frame is due: read at once, the next frame would take the
-// processor from the one that is being tracked, which a camera does not do.
+// Estimated time to read a frame of a recording, from the last frames. A recording played live is
+// read ahead by this time only: read earlier, the next frame would compete with tracking for the
+// processor, which a camera does not do.
 class ReadingTime {
  public:
   using Duration = std::chrono::steady_clock::duration;
 
-  // What a frame took.
+  // Adds the time that a frame took.
   void Add(Duration taken);
-  // What is enough for the next one: the longest of the last sixteen and a quarter more. Zero
-  // before the first.
+  // Returns a sufficient time for the next frame: the longest of the last sixteen and a quarter
+  // more. Zero before the first.
   Duration Enough() const;
 
  private:

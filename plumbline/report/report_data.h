@@ -14,23 +14,22 @@
 
 namespace plumbline {
 
-// What the page tells in addition to what System and Dataset know.
+// Data of the page in addition to that of System and Dataset.
 struct ReportContext {
   RunDescription description;
   ResourceUse resources;
-  std::string date;  // shown as it is
+  std::string date;  // shown verbatim
   std::vector<SampleImage> samples;
-  // The page shows every n-th frame of a run that has more frames than this (ShownFrames).
+  // The page shows every n-th frame of a run with more frames than this (ShownFrames).
   std::size_t most_frames = ShownFrames::kMost;
 };
 
-// Returns all that report.html shows, as one JSON object. Its keys are those that report_page.js
-// reads: "run" (what was run, with which options), "counts" (of all frames), "frames" (columns, one
-// row for each frame that is shown, with its number), "stages" (times, of the same rows; statistics
-// of all frames), "scene" (maps, trajectories, errors, loops and the like; arrays of float32 in
-// base64, metres, relative to "origin"), "samples" (images as data: URIs, with their features).
-// What refers to a frame gives its row, but for "keyframe_frames" and "relative_to", which have
-// numbers of frames.
+// Returns all data of report.html as one JSON object with the keys of report_page.js: "run" (source
+// and options), "counts" (of all frames), "frames" (columns, one row for each displayed frame, with
+// its number), "stages" (times, of the same rows; statistics of all frames), "scene" (maps,
+// trajectories, errors, loops and the like; arrays of float32 in base64, metres, relative to
+// "origin"), "samples" (images as data: URIs, with their features). References to frames are rows,
+// except in "keyframe_frames" and "relative_to", which have numbers of frames.
 //
 // Text that is not UTF-8 is repaired.
 //

@@ -6,8 +6,8 @@
 
 namespace plumbline {
 
-// Returns the page report_page.html with its style and scripts in it, which CMake makes part of the
-// library. {{TITLE}} and {{DATA}} are still to be replaced.
+// Returns the page report_page.html with its style and scripts, built into the library by CMake.
+// The caller replaces {{TITLE}} and {{DATA}}.
 std::string_view ReportPage();
 
 }  // namespace plumbline

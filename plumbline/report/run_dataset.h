@@ -13,25 +13,24 @@
 
 namespace plumbline {
 
-// Takes the record of each frame, in the order of the frames, in the thread that tracks.
+// Receives the record of each frame, in the order of the frames, in the tracking thread.
 using FrameObserver = std::function<void(const FrameRecord& record)>;
 
-// Tracks the camera through a whole recorded sequence and maps what it sees: the one call that a
-// program needs which only wants the trajectories and the map.
+// Runs SLAM on a whole recorded sequence: the only call needed for trajectories and map.
 //
-//   dataset   what OpenDataset gives
-//   options   as for System. In live mode frames are handed over as far apart in time as they were
-//             recorded, in the other modes as soon as they are read.
+//   dataset   result of OpenDataset
+//   options   as for System. In live mode frames are delivered at the intervals of the recording,
+//             in the other modes as soon as they are read.
 //   observe   may be empty
-//   stop      asked before each frame; once it says yes no more frames are taken, and the
-//             adjustment of the maps at the end is cut short. May be empty.
-//   returns   the finished system: FinalTrajectory, CausalTrajectory, LineMap and maps() of it are
-//             complete. It does not refer to the data set.
+//   stop      called before each frame; once true, no more frames are processed, and the final
+//             adjustment of the maps is cut short. May be empty.
+//   returns   the finished system, with complete FinalTrajectory, CausalTrajectory, LineMap and
+//             maps(). It does not refer to the data set.
 //
-// A frame whose image cannot be read is skipped, and its record says so (image_unreadable). Throws
-// InputError for a calibration that cannot be used and for an image of another size than the
-// calibration says. The result has the same bytes as that of the program's `run`, except in live
-// mode. Cost: the time of the run; images are read in the calling thread.
+// A frame whose image cannot be read is skipped and recorded as image_unreadable. Throws InputError
+// for an invalid calibration and for an image of another size than calibrated. The result has the
+// same bytes as that of the program's `run`, except in live mode. Cost: the time of the run; images
+// are read in the calling thread.
 std::unique_ptr<System> RunDataset(const Dataset& dataset,
                                    const SlamOptions& options = {},
                                    const FrameObserver& observe = {},

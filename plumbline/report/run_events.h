@@ -28,21 +28,21 @@ constexpr auto EnumNames(std::type_identity<RunEventKind>) {
 // An event of a run, for display.
 struct RunEvent {
   RunEventKind kind = RunEventKind::kLoop;
-  // What was recognized. For a relocalization it has only the frame, points, lines, and as `older`
-  // the keyframe from which the place was found.
+  // The recognized place. For a relocalization it has only the frame, points, lines, and as `older`
+  // the matched keyframe.
   Recognition place;
   std::optional<MapJoin> join;
-  // Map that has the older keyframe in the end; nullopt where none has it.
+  // Final map of the older keyframe; nullopt if it has left all maps.
   std::optional<MapId> map;
-  // Where both keyframes are in the end, in the world that is shown. A relocalization has no `at`,
-  // which is where its frame is.
+  // Final positions of both keyframes in the displayed world. A relocalization has no `at`: it is
+  // at its frame.
   std::optional<Eigen::Vector3d> at, older_at;
 };
 
-// Returns the events of a run in the order of their frames, with their places in the world that is
-// shown.
+// Returns the events of a run in the order of their frames, with their positions in the displayed
+// world.
 //
-//   world_from_map  how each map is shown
+//   world_from_map  pose of each map in the displayed world
 std::vector<RunEvent> PlaceEvents(const MapEvents& events,
                                   const std::map<MapId, Map>& maps,
                                   const std::map<MapId, Similarity3>& world_from_map);

@@ -12,25 +12,24 @@
 
 namespace plumbline {
 
-// Names of the files of a map's trajectories: the plain ones, or those of one map of several.
+// File names of a map's trajectories: plain ones, or with the number of one map of several.
 struct TrajectoryNames {
   explicit TrajectoryNames(std::optional<MapId> map = std::nullopt);
   std::string final_estimate, causal, keyframes, covariance;
 };
 
-// trajectory_covariance.txt: one row for each pose whose covariance is known, its stamp as in the
+// trajectory_covariance.txt: one row for each pose with a known covariance, its stamp as in the
 // trajectories and 36 numbers, the matrix row by row.
 std::string FormatCovariances(const std::vector<StampedCovariance>& covariances);
 
-// frames.csv: one row for each input frame with what became of it. `final_map` is the map that a
-// pose is part of in the end: the one in which it was reported may have become part of another one,
-// which `atlas` knows.
+// frames.csv: one row for each input frame with its result. `final_map` is the final map of a pose:
+// the map in which it was reported may have been merged into another one, as `atlas` records.
 std::string FormatFrameRow(const FrameRecord& frame, MapId final_map);
 std::string FormatFrames(const FrameLog& frames, const Atlas& atlas = {});
 
-// The functions below return the files of a finished run, those first that are worth most for their
-// size. The files refer to the system, which must live on, and look at it only when they are
-// written. Each is written whole or not at all; writing throws WriteError.
+// The functions below return the files of a finished run, by descending value for their size. The
+// files refer to the system, which must outlive them, and read it only when they are written. Each
+// is written atomically; writing throws WriteError.
 //
 // time_mirror_ns is DatasetInfo::time_mirror_ns. After a run backwards a frame has the stamp of its
 // recording in all text files, so that they can be compared with the data's own ground truth.
@@ -43,8 +42,8 @@ std::string FormatFrames(const FrameLog& frames, const Atlas& atlas = {});
 std::vector<RunFile> PoseFiles(const System& system,
                                std::optional<std::int64_t> time_mirror_ns = std::nullopt);
 
-// Returns map.plb: the whole atlas (SaveAtlas). The map to go on with is the one with most frames;
-// after a run that only reads its maps it stays the same.
+// Returns map.plb: the whole atlas (SaveAtlas). The active map is the one with most frames; after a
+// run with read-only maps it is unchanged.
 RunFile MapFile(const System& system);
 
 // Returns timing.csv, timing.json, and lines.obj, lines.dxf and map.ply (the line map,

@@ -22,86 +22,79 @@ struct RunFile {
   std::function<void(const std::filesystem::path&)> write;
 };
 
-// What an earlier run left in its folder.
-struct EarlierRun {
-  std::size_t poses = 0;  // rows of trajectory.txt
-  std::string data;       // "data" of summary.json; empty where that cannot be read
-};
-
-// A file or folder that a run reads.
+// A file or folder read by a run.
 struct RunInput {
   std::filesystem::path path;
-  // True if it is read whole before anything is replaced.
+  // True if it is read completely before anything is replaced.
   bool may_lie_in_out = false;
 };
 
-// Throws InputError, which says what to do, when a folder for results is, holds or lies in
-// something that is read. Changes nothing.
+// Throws InputError, with advice, if the folder for results is, contains or lies in an input.
+// Changes nothing.
 void CheckApart(const std::filesystem::path& out, std::span<const RunInput> inputs);
 
-// Throws InputError, which names the option, when a file that a run is to write is or lies in
-// something that is read, so that it would replace data. Changes nothing.
+// Throws InputError, naming the option, if an output file is or lies in an input, so that it would
+// replace data. Changes nothing.
 void CheckFileApart(std::string_view option,
                     const std::filesystem::path& file,
                     std::span<const RunInput> inputs);
 
-// Throws InputError, which names the option, when a file that a run is to write beside its results
-// has the place of one of these in the folder `out`, or lies in the folder's part. Changes nothing.
+// Throws InputError, naming the option, if an additional output file has the path of a result in
+// the folder `out`, or lies in the folder's part. Changes nothing.
 void CheckNoResult(std::string_view option,
                    const std::filesystem::path& file,
                    const std::filesystem::path& out);
 
-// The folder of a run's results (--out DIR), of which nothing is lost.
+// The folder of a run's results (--out DIR), protected against losses.
 //
-// A run writes into DIR/.part. At the end Commit() puts its files in the places of those of an
-// earlier run, which the manifest of DIR lists (RunManifest); what it does not list is never
-// touched. Killed at any moment, a run leaves the earlier results as they were and its own in
-// DIR/.part, or, from the first step of Commit() on, its own whole: the next RunFolder in DIR
-// completes the exchange. What a run that was killed before left in DIR/.part is kept as
-// DIR/interrupted-1, -2 and so on, unless it had not got to a frame. One program at a time works in
-// DIR (FolderLock).
+// A run writes into DIR/.part. At the end Commit() replaces the files of an earlier run, listed in
+// the manifest of DIR (RunManifest); other files are never touched. Killed at any moment, a run
+// leaves the earlier results unchanged and its own in DIR/.part, or, from the first step of
+// Commit() on, its own complete: the next RunFolder in DIR completes the exchange. Results of a
+// killed run in DIR/.part are kept as DIR/interrupted-1, -2 and so on, unless it processed no
+// frame. One program at a time works in DIR (FolderLock).
 class RunFolder {
  public:
-  // Makes DIR where it is missing, and DIR/.part. Throws InputError, which says what to do, when
-  // another run writes there, when DIR has files with names of results that no run wrote, or when
-  // it cannot be written to; DIR then is as it was.
+  // Creates DIR if it is missing, and DIR/.part. Throws InputError, with advice, if another run
+  // writes there, if DIR has files with names of results that no run wrote, or if it cannot be
+  // written to; DIR is then unchanged.
   explicit RunFolder(std::filesystem::path folder);
-  // Removes what it made in DIR, unless Keep() was called.
+  // Removes what it created in DIR, unless Keep() was called.
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
 
   const std::filesystem::path& path() const { return folder_; }
-  // The folder that has the files until Commit().
+  // The folder of the files until Commit().
   const std::filesystem::path& part() const { return part_; }
-  // Notes about runs that were killed, one sentence each.
+  // Notes about killed runs, one sentence each.
   const std::vector<std::string>& notes() const { return notes_; }
 
-  // Tells that the part holds something of worth from now on.
+  // Marks the part as worth keeping.
   void Keep() { keep_ = true; }
 
-  // Makes the folders again where somebody removed them. Throws InputError when that fails.
+  // Creates the folders again if they were removed. Throws InputError if that fails.
   void Restore();
 
-  // Writes a file into the part, and returns whether that succeeded. A failure is kept for
-  // Failures(), so that later files are written all the same.
+  // Writes a file into the part, and returns true on success. A failure is recorded for Failures(),
+  // so that later files are still written.
   bool Write(const RunFile& file);
-  // Returns "cannot write DIR/map.plb, report.html: <reason>" in one line; nullopt if all could be
+  // Returns "cannot write DIR/map.plb, report.html: <reason>" in one line; nullopt if all were
   // written.
   std::optional<std::string> Failures() const;
 
   // Removes from the part the files of a run that are not among `names`.
   void KeepOnly(const std::vector<std::string>& names) const;
 
-  // Whether Commit() would replace complete results by some that lack files.
+  // Returns true if Commit() would replace complete results by incomplete ones.
   bool WouldLose() const;
 
-  // The earlier run whose results DIR has; nullopt where it has none with poses.
-  std::optional<EarlierRun> Earlier() const;
+  // Returns true if DIR has poses of an earlier run.
+  bool HoldsPoses() const;
 
   // Moves the files of the part into DIR, removes those of the earlier run, then the part. Throws
-  // InputError when that is impossible, for instance because DIR has got a file of such a name
-  // meanwhile; the files are then in the part, or some of them already in DIR.
+  // InputError if that is impossible, for instance because a file with the name of a result
+  // appeared in DIR meanwhile; the files are then in the part, or some of them already in DIR.
   void Commit();
 
  private:
@@ -117,7 +110,7 @@ class RunFolder {
 
   std::filesystem::path folder_;
   std::filesystem::path part_;
-  std::vector<std::filesystem::path> made_;  // folders that were not there before, outermost first
+  std::vector<std::filesystem::path> made_;  // folders created, outermost first
   std::optional<FolderLock> lock_;
   std::vector<std::string> notes_;
   std::vector<Failure> failures_;

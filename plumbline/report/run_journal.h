@@ -16,11 +16,11 @@
 
 namespace plumbline {
 
-// Keeps on the disk what a run has so far, in the part of its folder and by the names of the
-// results: the causal trajectories, frames.csv, and keyframes with their first poses. Whatever ends
-// the program, only what came after the last write is lost (WriteIfDue).
+// Writes the current results of a run into the part of its folder, under the names of the results:
+// the causal trajectories, frames.csv, and keyframes with their first poses. If the program is
+// killed, only results since the last write are lost (WriteIfDue).
 //
-// Every file is written anew and renamed, so that each is complete at any time.
+// Every file is written anew and renamed, so that each is always complete.
 class RunJournal {
  public:
   using Clock = std::chrono::steady_clock;
@@ -30,14 +30,14 @@ class RunJournal {
       : time_mirror_ns_(time_mirror_ns) {}
 
   // Adds the record of the next frame as first reported. May be called in another thread than the
-  // rest.
+  // other functions.
   void Add(const FrameRecord& record);
 
-  // Writes everything. Returns why that failed, only once; later calls try again and return
+  // Writes everything. Returns the reason of a failure, only once; later calls try again and return
   // nothing.
   std::optional<std::string> Write(RunFolder& folder);
-  // Writes if the last time is a second ago and twenty times what that write took: files grow with
-  // the run, and writing them is to take a twentieth of the time at most.
+  // Writes if the last write was a second ago and twenty times its own duration: files grow with
+  // the run, and writing may take a twentieth of the time at most.
   std::optional<std::string> WriteIfDue(RunFolder& folder, Clock::time_point now = Clock::now());
 
  private:
@@ -57,7 +57,7 @@ class RunJournal {
   std::map<MapId, MapText> maps_;
   std::set<std::string> written_;  // names of written files
   Clock::time_point last_ = Clock::now();
-  Clock::duration taken_{};  // time of the last Write
+  Clock::duration taken_{};  // duration of the last Write
   bool failed_ = false;
 };
 

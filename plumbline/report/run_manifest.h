@@ -9,28 +9,29 @@
 
 namespace plumbline {
 
-// The list of the files that a run wrote into a folder: the file .plumbline-run beside them, in
-// JSON. Only files that are listed there may be replaced or removed by later runs.
+// List of the files that a run wrote into a folder: the file .plumbline-run beside them, in JSON.
+// Later runs may replace or remove only listed files.
 struct RunManifest {
   static constexpr const char* kFile = ".plumbline-run";
 
-  bool complete = false;           // false while the run is under way
+  bool complete = false;           // false while the run is in progress
   std::vector<std::string> files;  // names in the folder, ascending
 
   bool Lists(const std::string& name) const;
 };
 
-// Whether a run may write a file of this name: trajectory.txt, trajectory_map2.txt,
-// overlay_000010.png and so on.
+// Returns true for names of a run's files: trajectory.txt, trajectory_map2.txt, overlay_000010.png
+// and so on.
 bool IsRunFile(const std::string& name);
 
-// Returns the names in a folder for which IsRunFile holds, ascending. Throws InputError when the
+// Returns the names in a folder for which IsRunFile holds, ascending. Throws InputError if the
 // folder cannot be listed.
 std::vector<std::string> RunFilesIn(const std::filesystem::path& folder);
 
-// Returns the manifest of a folder; nullopt where there is none. Names that no run uses are left
-// out, whatever the file says. Throws InputError
-// "<file>: expected ..., found ..." when it is no manifest.
+// Returns the manifest of a folder; nullopt if it has none. A folder written by a version without
+// manifests gets one with all files of such names, if its summary.json repeats its options.yaml.
+// Names that no run uses are ignored. Throws InputError "<file>: expected ..., found ..." for an
+// invalid manifest.
 std::optional<RunManifest> ReadRunManifest(const std::filesystem::path& folder);
 
 // Replaces the manifest of a folder. Throws WriteError.

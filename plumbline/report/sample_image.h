@@ -12,18 +12,17 @@
 
 namespace plumbline {
 
-// The rectified left image of one frame and the features found in it, kept for report.html.
+// The rectified left image of one frame with its features, for report.html.
 struct SampleImage {
   FrameId frame;
-  std::string file;           // name of the overlay image that shows the same frame
+  std::string file;           // name of the overlay image of the same frame
   int width = 0, height = 0;  // size of the image; positions are in its pixels
-  std::string jpeg;           // the image, grey, made smaller where it is very wide or high
+  std::string jpeg;           // the image, grey, reduced if it is very wide or high
   std::vector<Eigen::Vector2d> matched_points, other_points;
   std::vector<Segment2> matched_lines, other_lines;
 };
 
-// Makes the sample of a frame that has just been processed. Cost: encoding the image, some
-// milliseconds.
+// Makes the sample of the last processed frame. Cost: encoding the image, some milliseconds.
 SampleImage MakeSampleImage(const FrameView& view, const std::string& file);
 
 }  // namespace plumbline

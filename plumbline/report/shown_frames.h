@@ -10,25 +10,25 @@
 
 namespace plumbline {
 
-// The frames of a run that a page shows one by one, each a row of its charts. A page with all
-// frames of a day would take gigabytes, to write and in the browser: of a run with more frames than
-// `limit` these are every n-th frame, the last one, those before and after a change of state (a
-// loss begins or ends), and those that are asked for.
+// Frames of a run that a page shows individually, each a row of its charts. A page with all frames
+// of a day would take gigabytes, on disk and in the browser: of a run with more frames than `limit`
+// these are every n-th frame, the last one, those before and after a change of state (a loss begins
+// or ends), and requested ones.
 class ShownFrames {
  public:
   static constexpr std::size_t kMost = 100'000;
 
-  // always: frames that are shown in any case. There are at most limit + 1 frames beside them and
-  // the changes, which are thinned in the same way.
+  // always: frames shown in any case. At most limit + 1 frames are added to them and to the
+  // changes, which are thinned in the same way.
   ShownFrames(const FrameLog& frames,
               const std::vector<std::size_t>& always,
               std::size_t limit = kMost);
 
-  // The numbers of the frames, in order; a frame's row is its place here.
+  // The numbers of the frames, in order; a frame's row is its index here.
   const std::vector<std::size_t>& numbers() const { return numbers_; }
-  // 1 where all frames are shown, otherwise the n of every n-th frame.
+  // 1 if all frames are shown, otherwise the n of every n-th frame.
   std::size_t step() const { return step_; }
-  // Returns the row of a frame; nullopt where it is not shown. O(log frames).
+  // Returns the row of a frame; nullopt if it is not shown. O(log frames).
   std::optional<std::size_t> RowOf(std::size_t frame) const;
 
  private:

@@ -13,7 +13,7 @@
 
 namespace plumbline {
 
-// What a run used of the machine since its start.
+// Resources used by a run since its start.
 struct ResourceUse {
   double wall_seconds = 0;
   std::optional<double> first_pose_seconds;  // from the start of the process; nullopt: no pose
@@ -24,26 +24,27 @@ struct ResourceUse {
 // Returns CPU time and peak memory of this process; the caller sets the other times.
 ResourceUse MeasureResources();
 
-// Returns the time since this process was started, its loading included, to 10 ms; nullopt where
-// the system does not tell it.
+// Returns the time since the start of this process, including its loading, to 10 ms; nullopt if the
+// system does not report it.
 std::optional<double> SecondsSinceProcessStart();
 
 struct RunCounts {
   int frames = 0, tracked = 0, lost = 0, skipped = 0, initializing = 0;
   // Tracked frames in the main map: the poses of trajectory.txt.
   int in_trajectory = 0;
-  // Skipped frames for which a live run had no time.
+  // Frames skipped in a live run for lack of time.
   int dropped = 0;
-  // Frames of a live run, by the last thing it left undone, in the order of LoadLevel.
+  // Frames of a live run with reduced work, by the last reduction, in the order of LoadLevel.
   int shed_mapping = 0, shed_lines = 0, shed_points = 0;
-  int demoted = 0;  // keyframes that mapping had no time for
+  int demoted = 0;  // keyframes dropped because mapping was busy
   int keyframes = 0, points = 0, lines = 0, maps = 0;
 };
 RunCounts CountRun(const System& system);
 
-// Mean memory of a line landmark in bytes; nullopt where there are no lines.
+// Mean memory of a line landmark in bytes; nullopt without lines.
 struct LineMemory {
-  // Bytes of a line in the main map: place, information, appearance and its list of observations.
+  // Bytes of a line in the main map: position, information, appearance and its list of
+  // observations.
   std::optional<double> map;
   // Bytes of a line in local bundle adjustment, over all windows of the run: parameters,
   // observations and equations.
@@ -51,7 +52,7 @@ struct LineMemory {
 };
 LineMemory MeasureLineMemory(const System& system);
 
-// Returns why a run on this data has no errors, where CompareWithGroundTruth has none: "no ground
+// Returns the reason why CompareWithGroundTruth has no errors for a run on this data: "no ground
 // truth with the data", or the file and line at fault.
 std::string WhyNoErrors(const DatasetInfo& info);
 
@@ -69,10 +70,10 @@ struct RunDescription {
   std::string options_yaml;
   int seed = 0;
   std::vector<std::string> arguments = {};  // arguments of the command
-  std::size_t frames_chosen = 0;            // frames that the run was to process
+  std::size_t frames_chosen = 0;            // frames to be processed
   // Name of the signal that ended the run early, "SIGINT"; nullopt if none did.
   std::optional<std::string> interrupted = std::nullopt;
-  // One sentence for each thing that the images showed to be wrong with the data.
+  // One sentence for each fault of the data found in the images.
   std::vector<std::string> notes = {};
 };
 

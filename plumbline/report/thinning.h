@@ -8,12 +8,12 @@
 
 namespace plumbline {
 
-// Returns n where every n-th of `count` things is shown, so that there are at most `limit`.
+// Returns the n with which every n-th of `count` items are at most `limit`.
 inline std::size_t StepFor(std::size_t count, std::size_t limit) {
   return std::max<std::size_t>(1, (count + limit - 1) / std::max<std::size_t>(limit, 1));
 }
 
-// Keeps the first of every `step` things.
+// Keeps the first of every `step` items.
 template <class T>
 void KeepEvery(std::size_t step, std::vector<T>& things) {
   std::size_t kept = 0;

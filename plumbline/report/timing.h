@@ -11,9 +11,8 @@
 
 namespace plumbline {
 
-// Distribution of the time of one stage over the frames in which it ran, milliseconds.
-// Percentiles are values that occurred (nearest rank); the median of an even number of them is the
-// mean of the middle two.
+// Distribution of the time of one stage over the frames in which it ran, milliseconds. Percentiles
+// are actual values (nearest rank); the median of an even number is the mean of the middle two.
 struct StageStatistics {
   std::string stage;
   std::size_t count = 0;
@@ -24,14 +23,14 @@ struct StageStatistics {
 // frame's arrival to its pose.
 std::vector<StageStatistics> TimingStatistics(const FrameLog& frames);
 
-// Returns the milliseconds of one stage in the frames with these numbers; nullopt where it did not
+// Returns the milliseconds of one stage in the frames with these numbers; nullopt if it did not
 // run.
 std::vector<std::optional<double>> StageMilliseconds(const FrameLog& frames,
                                                      const std::vector<std::size_t>& numbers,
                                                      const std::string& stage);
 
-// Return a table with a row for each frame and a column for each stage; empty where the stage did
-// not run.
+// Return a table with a row for each frame and a column for each stage; empty if the stage did not
+// run.
 std::string FormatTimingCsv(const FrameLog& frames);
 std::string FormatTimingJson(const FrameLog& frames);
 
