@@ -10,8 +10,8 @@
 
 namespace plumbline {
 
-// A drawing of lines and words, which can be written as SVG or painted as an image. Units: pixels,
-// x right, y down.
+// A drawing of lines and texts, to be written as SVG or painted as an image. Units: pixels, x
+// right, y down.
 struct Figure {
   struct Color {
     std::uint8_t r = 0, g = 0, b = 0;

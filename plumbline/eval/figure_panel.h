@@ -33,23 +33,19 @@ struct FigurePanel {
 // Adds the panel's border, its grid lines with numbers, its labels and its title.
 void DrawPanel(const FigurePanel& panel, Figure& figure);
 
-// Returns the range grown to the shape of a panel, width by height, so that a metre is as long in x
-// as in y.
+// Returns the range enlarged to the aspect ratio of a panel, width by height, so that x and y have
+// equal scales.
 Eigen::AlignedBox2d EqualScale(const Eigen::AlignedBox2d& range, double aspect);
 
-// Returns the two axes in which the reference moves most, in their order x, y, z. The third one is
-// up in most worlds.
+// Returns the two axes with the largest motion of the reference, in their order x, y, z. The third
+// one is up in most worlds.
 std::pair<int, int> AxesOfMostMotion(std::span<const EvaluatedPose> poses);
 
-// Returns a pleasing distance between grid lines: 1, 2 or 5 times a power of ten, so that there are
-// about `count` in a span.
+// Returns a round distance between grid lines: 1, 2 or 5 times a power of ten, with about `count`
+// lines in a span.
 double GridStep(double span, int count);
 
-// Returns the part of a segment inside a box (Liang and Barsky, A new concept and method for line
-// clipping, 1984).
-std::optional<Segment2> Clipped(const Segment2& segment, const Eigen::AlignedBox2d& box);
-
-// Returns a number with at most so many significant digits.
+// Returns a number with at most `digits` significant digits.
 std::string FigureNumber(double value, int digits);
 
 }  // namespace plumbline

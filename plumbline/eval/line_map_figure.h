@@ -12,14 +12,14 @@
 namespace plumbline {
 
 // Draws a line map over the lines of the known world, from above and from the side. True lines are
-// grey (light where too few frames see them), estimated segments green where they have a
-// counterpart, and red where they have none.
+// grey (light if too few frames see them), estimated segments green with a counterpart, and red
+// without.
 //
 //   truth, estimate, error  as given to CompareLineMaps, and its result
 //   poses                   of the same world; "above" is along the axis in which the reference
 //                           moves least
 //
-// The view is that of the true lines; what lies outside is cut off.
+// The view is that of the true lines; the rest is cut off.
 Figure LineMapFigure(std::span<const TrueLine> truth,
                      std::span<const Segment3> estimate,
                      const LineMapError& error,

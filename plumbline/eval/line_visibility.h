@@ -15,17 +15,17 @@
 
 namespace plumbline {
 
-// A frame of a sequence, and where its camera truly was.
+// A frame of a sequence, and the true pose of its camera.
 struct LineViewer {
   int frame = 0;  // number of the frame as in TrueLine::visible
   Rigid3 camera_from_world;
 };
 
-// The frames from which true lines may have been mapped, and when a line counts as seen.
+// Viewers of true lines, and the conditions for a line to count as seen.
 struct LineViewers {
   std::vector<LineViewer> frames;
-  // Normals, in the camera frame, of the planes through the camera's centre that bound the image.
-  // They point inwards.
+  // Inward normals, in the camera frame, of the planes through the camera's centre that bound the
+  // image.
   std::array<Eigen::Vector3d, 4> image_sides;
   int min_frames = 5;
   double max_distance = 6;  // distance from the camera's centre, metres
@@ -33,23 +33,22 @@ struct LineViewers {
 
 // Returns the keyframes of a run as viewers.
 //
-// The image counts as the ideal rectangle through the middles of its four borders. With barrel
-// distortion that lies inside the image, whose corners are then left out.
+// The image is approximated by the ideal rectangle through the midpoints of its four borders. With
+// barrel distortion that lies inside the image, whose corners are then ignored.
 //
 //   camera        camera of the sequence, as delivered
 //   frame_stamps  stamps of the sequence, ascending
-//   keyframes     stamps of the keyframes; those that are no frame or have no evaluated pose are
-//                 left out
-//   poses         poses of the run, with the reference beside
+//   keyframes     stamps of the keyframes; those without a frame or an evaluated pose are skipped
+//   poses         poses of the run, with their references
 LineViewers ViewersOf(const Camera& camera,
                       std::span<const std::int64_t> frame_stamps,
                       std::span<const std::int64_t> keyframes,
                       std::span<const EvaluatedPose> poses);
 
 // Returns the parts of a true line that at least min_frames of the viewers see, each from
-// max_distance or nearer: inside the image, in a frame that sees some of the line. What hides only
-// a part of the line in that frame is not known. Exact: a ball and four planes cut a stretch out of
-// the line for each viewer. Lines without recorded frames count as seen in all.
+// max_distance or nearer: inside the image, in a frame that sees some of the line. Occlusion of
+// parts of the line in that frame is not known. Exact: each viewer's ball and four planes cut an
+// interval out of the line. Lines without recorded frames count as seen in all.
 std::vector<Stretch> SeenStretches(const TrueLine& line, const LineViewers& viewers);
 
 }  // namespace plumbline

@@ -17,9 +17,9 @@
 
 namespace plumbline {
 
-// Which free motion of the whole estimate is taken out before positions are compared.
+// Alignment of the whole estimate before positions are compared.
 enum class TrajectoryAlignment {
-  kNone,  // both are in the same world already
+  kNone,  // both are already in the same world
   kSe3,   // rotation and translation
   kSim3,  // rotation, translation and scale (monocular)
 };
@@ -29,10 +29,10 @@ constexpr auto EnumNames(std::type_identity<TrajectoryAlignment>) {
                     std::pair{TrajectoryAlignment::kSim3, "sim3"}};
 }
 
-// How a reference pose is found for a pose of the estimate.
+// Association of a reference pose with a pose of the estimate.
 enum class TrajectoryAssociation {
   kInterpolate,  // the reference is interpolated at the time of the estimate
-  // The reference pose nearest in time is taken, as older tools do.
+  // the reference pose nearest in time, as in older tools
   kNearest,
 };
 constexpr auto EnumNames(std::type_identity<TrajectoryAssociation>) {
@@ -40,20 +40,20 @@ constexpr auto EnumNames(std::type_identity<TrajectoryAssociation>) {
                     std::pair{TrajectoryAssociation::kNearest, "nearest"}};
 }
 
-// Distance in time of the two poses whose relative motion is compared.
+// Time between the two poses of a relative motion.
 struct RelativeWindow {
   std::int64_t duration_ns = 3'000'000'000;  // used when frames == 0
   int frames = 0;                            // > 0: a number of rows of the estimate instead
 };
 
-// How CompareTrajectories aligns, associates and windows.
+// Alignment, association and windows of CompareTrajectories.
 struct TrajectoryErrorOptions {
   TrajectoryAlignment alignment = TrajectoryAlignment::kSe3;
-  // The alignment, where it is known from elsewhere: it is applied as it is, and `alignment` says
-  // what kind it is.
+  // The alignment, if known from elsewhere: it is applied unchanged, and `alignment` tells its
+  // kind.
   std::optional<Similarity3> known_alignment = {};
   TrajectoryAssociation association = TrajectoryAssociation::kInterpolate;
-  // Largest gap between reference poses that are interpolated (KITTI: 0.25 s).
+  // Largest gap between reference poses for interpolation (KITTI: 0.25 s).
   std::int64_t max_gap_ns = 100'000'000;
   // Largest distance in time of the nearest reference pose.
   std::int64_t max_difference_ns = 20'000'000;
@@ -70,10 +70,10 @@ struct ErrorStatistics {
   double p75 = 0, p95 = 0;  // percentiles
 };
 
-// Returns the statistics of some errors; nullopt where there are none. O(n).
+// Returns the statistics of some errors; nullopt if empty. O(n).
 std::optional<ErrorStatistics> StatisticsOf(std::vector<double> errors);
 
-// A pose of the estimate beside the reference at that time.
+// A pose of the estimate with its reference at that time.
 struct EvaluatedPose {
   std::size_t row = 0;  // row in the estimate
   std::int64_t stamp_ns = 0;
@@ -90,75 +90,75 @@ struct RelativeError {
   double rotation = 0;           // radians per second
 };
 
-// The result of CompareTrajectories.
+// Result of CompareTrajectories.
 struct TrajectoryError {
-  std::size_t estimated = 0;                   // number of poses of the estimate
-  Similarity3 reference_from_estimate;         // the alignment
-  std::optional<AlignmentFailure> degenerate;  // why positions alone do not determine the alignment
-  std::vector<EvaluatedPose> poses;            // the associated poses, in order of time
-  std::vector<RelativeError> relative;         // pairs that span the window, in order of time
-  ErrorStatistics ate;                         // distances of positions after alignment, metres
-  std::optional<double> scale_drift;           // only for kSim3; see ScaleDrift
-  std::optional<ErrorStatistics> rpe;  // metres per second; nullopt: no pair spans the window
-  std::optional<ErrorStatistics> roe;  // radians per second
+  std::size_t estimated = 0;            // number of poses of the estimate
+  Similarity3 reference_from_estimate;  // the alignment
+  // reason why positions alone do not determine the alignment
+  std::optional<AlignmentFailure> degenerate;
+  std::vector<EvaluatedPose> poses;     // the associated poses, in order of time
+  std::vector<RelativeError> relative;  // pairs that span the window, in order of time
+  ErrorStatistics ate;                  // distances of positions after alignment, metres
+  std::optional<double> scale_drift;    // only for kSim3; see ScaleDrift
+  std::optional<ErrorStatistics> rpe;   // metres per second; nullopt: no pair spans the window
+  std::optional<ErrorStatistics> roe;   // radians per second
 };
 
 // Compares an estimated trajectory with a reference.
 //
 // ATE: distances of corresponding positions after the alignment that minimises their squares
-// (Umeyama), over all associated poses. Where the positions lie on a line or in one place,
-// `degenerate` says so, and what they leave open follows from the orientations of all poses: the
-// turn about the line, or the whole rotation. The scale is 1 where there is no spread.
+// (Umeyama), over all associated poses. If the positions are collinear or coincide, `degenerate`
+// says so, and the undetermined rotation, about the line or the whole, follows from the
+// orientations of all poses. The scale is 1 if the positions coincide.
 //
 // RPE and ROE (relative position and orientation error): for every pair (a, b) of associated poses
 // one window apart, E = (A_ref^-1 B_ref)^-1 (A_est^-1 B_est); |translation of E| and rotation angle
 // of E, divided by the time between a and b in the estimate. The estimate has the scale of the
 // alignment; rotation and translation of the alignment do not matter. Pairs:
 //   duration   b is the associated pose nearest to a's time plus the duration (the earlier of two),
-//              taken when within 5 % of the duration
-//   frames     b is so many rows of the estimate after a, taken when the time between is at most
-//              1.5 times what the median spacing of rows gives (a longer one spans lost frames)
+//              used if within 5 % of the duration
+//   frames     b is this many rows of the estimate after a, used if the time between is at most
+//              1.5 times that of the median spacing of rows (a longer one spans lost frames)
 //
 //   reference, estimate  of the same camera, stamps ascending, metres
-//   fails    nullopt when no pose of the estimate has a reference; throws InputError for a rotation
-//            that is none (unit_rotation.h)
+//   fails    nullopt if no pose of the estimate has a reference; throws InputError for an invalid
+//            rotation (unit_rotation.h)
 //   cost     O(n log n)
 std::optional<TrajectoryError> CompareTrajectories(const Trajectory& reference,
                                                    const Trajectory& estimate,
                                                    const TrajectoryErrorOptions& options);
 
-// Returns the motion of the whole estimate, already aligned, after which poses agree best.
-// Positions and orientations count together, as the squared distances of the camera centre and of
-// the six points 1 m from it along the camera's axes. Positions alone do not tell the rotation of a
-// path that is short or straight, though all that is seen from it depends on that rotation.
+// Returns the motion of the whole estimate, already aligned, that best aligns its poses. Positions
+// and orientations count together, as the squared distances of the camera centre and of the six
+// points 1 m from it along the camera's axes. Positions alone do not determine the rotation of a
+// path that is short or straight, though all landmarks depend on that rotation.
 //
-//   poses    at least one; the estimates as CompareTrajectories leaves them
+//   poses    at least one; the estimates as in the result of CompareTrajectories
 //   result   reference_from_aligned, scale 1
 //   cost     O(n)
 Similarity3 AlignPoses(std::span<const EvaluatedPose> poses);
 
-// Returns how the scale of an estimate changed: its unit over the true one in the last fifth of the
-// poses, divided by that in the first fifth, minus 1. Positive: what is estimated has become
-// larger.
+// Returns the relative drift of the scale of an estimate: its scale in the last fifth of the poses,
+// divided by that in the first fifth, minus 1. Positive: the estimate has become larger.
 //
-// The unit of a stretch is its spread (root mean square distance from the mean position) over the
+// The scale of a part is its spread (root mean square distance from the mean position) over the
 // true one. For small errors this is the scale of its own alignment, and it is defined on straight
 // paths, too.
 //
-//   poses    in order of time; the estimates in any world and unit, but all in one: units of two
-//            maps of one camera have nothing to do with one another
-//   fails    nullopt where the camera does not get far in one of the two fifths: their true spread
+//   poses    in order of time; the estimates in any world and scale, but all in the same: scales of
+//            two maps of one camera are unrelated
+//   fails    nullopt if the camera moves too little in one of the two fifths: their true spread
 //            must be a twentieth of that of all poses
 //   cost     O(n)
 std::optional<double> ScaleDrift(std::span<const EvaluatedPose> poses);
 
-// Returns the trajectory of the camera for one of the body that carries it: world_from_body *
-// body_from_camera. Throws InputError for a rotation that is none (unit_rotation.h).
+// Returns the trajectory of the camera, given that of the body that carries it: world_from_body *
+// body_from_camera. Throws InputError for an invalid rotation (unit_rotation.h).
 Trajectory OfCamera(const Trajectory& body, const Rigid3& body_from_camera);
 
 // Returns the trajectory in the world mirrored in y, seen by a camera mirrored in y, for ground
-// truth that belongs to a negative focal length fy (ICL-NUIM). It is M R M and M t with M = diag(1,
-// -1, 1). Throws InputError for a rotation that is none (unit_rotation.h).
+// truth with a negative focal length fy (ICL-NUIM). It is M R M and M t with M = diag(1, -1, 1).
+// Throws InputError for an invalid rotation (unit_rotation.h).
 Trajectory MirroredY(const Trajectory& trajectory);
 
 }  // namespace plumbline

@@ -13,23 +13,23 @@
 
 namespace plumbline {
 
-// A comparison to draw, and what the drawing calls its estimate.
+// A comparison to draw, and the name of its estimate.
 struct NamedError {
   std::string name;
   const TrajectoryError* error = nullptr;
 };
 
-// Returns roll, pitch and yaw in degrees: rotation = Rz(yaw) Ry(pitch) Rx(roll), turns about the
-// fixed axes x, y and z, one after the other. Pitch is within 90 degrees of 0; at its ends roll and
-// yaw are not determined apart from each other.
+// Returns roll, pitch and yaw in degrees: rotation = Rz(yaw) Ry(pitch) Rx(roll), rotations about
+// the fixed axes x, y and z, one after the other. Pitch is within 90 degrees of 0; at its ends roll
+// and yaw are not determined separately.
 Eigen::Vector3d RollPitchYawDeg(const Eigen::Quaterniond& rotation);
 
-// Draws evaluated trajectories beside their reference: from above ("above" is along the axis in
+// Draws evaluated trajectories with their references: from above ("above" is along the axis in
 // which the reference of the first one moves least), the position errors over time, and over time
 // x, y, z, roll, pitch and yaw of the camera (world_from_camera) in the world of the reference.
-// Time begins with the earliest pose. Estimates without poses are left out.
+// Time begins with the earliest pose. Estimates without poses are skipped.
 Figure TrajectoryFigure(std::span<const NamedError> errors);
-// Draws one, which is called "estimate".
+// Draws one comparison, named "estimate".
 Figure TrajectoryFigure(const TrajectoryError& error);
 
 }  // namespace plumbline
