@@ -134,84 +134,10 @@ requires(!Archive::kReading) void Transfer(Archive& archive, const std::map<Key,
   for (const auto& [key, item] : items) TransferAll(archive, key, item);
 }
 
-template <class Archive, class T>
-requires(Archive::kReading) void Transfer(Archive& archive, std::deque<T>& items) {
-  const std::size_t count = TransferCount(archive, 0);
-  for (std::size_t i = 0; i < count; ++i) Transfer(archive, items.emplace_back());
-}
-template <class Archive, class T>
-requires(!Archive::kReading) void Transfer(Archive& archive, const std::deque<T>& items) {
-  TransferCount(archive, items.size());
-  for (const T& item : items) Transfer(archive, item);
-}
-
-// Items must ascend; other sets are refused on reading.
-template <class Archive, class T>
-requires(Archive::kReading) void Transfer(Archive& archive, std::set<T>& items) {
-  const std::size_t count = TransferCount(archive, 0);
-  for (std::size_t i = 0; i < count; ++i) {
-    T item;
-    Transfer(archive, item);
-    if (!items.empty() && !(*items.rbegin() < item)) {
-      throw InputError(archive.source() + ": expected ascending items, found others");
-    }
-    items.insert(items.end(), std::move(item));
-  }
-}
-template <class Archive, class T>
-requires(!Archive::kReading) void Transfer(Archive& archive, const std::set<T>& items) {
-  TransferCount(archive, items.size());
-  for (const T& item : items) Transfer(archive, item);
-}
-
-// Transfers an enumerator that has a name (EnumNames). Other numbers are refused on reading.
-template <class Archive, class T>
-requires(std::is_enum_v<T>) void Transfer(Archive& archive, T& value) {
-  using Plain = std::remove_const_t<T>;
-  auto number = static_cast<std::int32_t>(value);
-  archive(number);
-  if constexpr (Archive::kReading) {
-    for (const auto& [enumerator, name] : EnumNames(std::type_identity<Plain>{})) {
-      if (static_cast<std::int32_t>(enumerator) != number) continue;
-      value = enumerator;
-      return;
-    }
-    throw InputError(archive.source() + ": expected one of the known choices, found number " +
-                     std::to_string(number));
-  }
-}
-
-// Transfers a class that lists its members for writing and reading by
-//
-//   template <class Self, class Visitor>
-//   static void VisitState(Self& self, const Visitor& visit) { visit(self.first_, self.second_); }
-//
-// If the class also has a member `bool IsConsistent() const`, an object for which it returns false
-// is refused on reading.
-struct IgnoreFields {
-  template <class... Fields>
-  void operator()(Fields&...) const {}
-};
-template <class T>
-concept ShowsState = requires(T& object) {
-  std::remove_const_t<T>::VisitState(object, IgnoreFields());
-};
-
-template <class Archive, ShowsState T>
-void Transfer(Archive& archive, T& object) {
-  std::remove_const_t<T>::VisitState(object,
-                                     [&](auto&... fields) { TransferAll(archive, fields...); });
-  if constexpr (Archive::kReading && requires { object.IsConsistent(); }) {
-    if (!object.IsConsistent()) {
-      throw InputError(archive.source() + ": expected values that go together, found others");
-    }
-  }
-}
-
-// Transfers one number of every item of a list, in the fewest bytes that fit all of them: doubles
-// that are floats in four, small integers in one. Bytes of equal weight are stored side by side
-// (all lowest ones, all second ones, ...), since they are alike and compress well. `get` returns
-// the number of an item: a reference to an integer (not std::uint64_t) or a double.
+// Transfers one number of every item of a list, in as few bytes each as all of them fit into:
+// doubles that are floats in four, small whole numbers in one. Bytes of equal weight lie side by
+// side (all lowest ones, all second ones, ...), since they are alike and compress well. `get`
+// returns the number of an item: a reference to an integer (not std::uint64_t) or a double.
 template <class Archive, class Items, class Get>
 void TransferColumn(Archive& archive, Items& items, const Get& get);
 

@@ -98,7 +98,7 @@ double CosOf(const Pair& angle) {
                                              -1.0 / 6402373705728000};
   const double z = angle.high * angle.high;
   const double sum = 1 - 0.5 * z;
-  // 1 - sum is exact, so that what 1 - z/2 lost can be added to the small terms.
+  // 1 - sum is exact, so that the part lost by 1 - z/2 can be added to the small terms.
   return sum + (((1 - sum) - 0.5 * z) + (z * z * Polynomial(kSeries, z) - angle.high * angle.low));
 }
 
@@ -155,7 +155,7 @@ Scaled Normalized(double x) {
 
 constexpr Pair kLog2 = {0x1.62e42feep-1, 0x1.a39ef35793c76p-33};  // 32 bits, and the rest
 
-// Returns x 2^exponent. The power is a product of two where no double holds it.
+// Returns x 2^exponent. The power is a product of two if no double represents it.
 double ScaledBy(double x, int exponent) {
   const auto power = [](int n) {
     return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + n) << 52U);
@@ -196,7 +196,7 @@ double Atan2(double y, double x) {
   const double large = std::max(across, along);
   if (large == 0 || along == kInfinity) return std::copysign(backwards ? kPi.high : 0, y);
   if (across == kInfinity) return std::copysign(kHalfPi.high, y);
-  // The scale keeps away from where sums overflow and products lose digits.
+  // The scale avoids the overflow of sums and the loss of digits in products.
   const double scale = large > 0x1p1000 ? 0x1p-4 : large < 0x1p-900 ? 0x1p100 : 1;
   across *= scale;
   along *= scale;

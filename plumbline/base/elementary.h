@@ -17,7 +17,7 @@ namespace plumbline::math {
 
 // The argument is in radians. Beyond 1e5 radians the error is below 2e-16 (not relative to the
 // value). Beyond 1e15, where neighbouring doubles are most of a turn apart, the value lies in [-1,
-// 1] but means nothing.
+// 1] but is meaningless.
 double Sin(double x);
 double Cos(double x);
 // Error below 2.5 ulp.

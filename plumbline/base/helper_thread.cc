@@ -10,9 +10,9 @@
 namespace plumbline {
 namespace {
 
-// Sends a thread to another processor than the caller's, where the program may use more than one.
-// Linux wakes a thread on the processor of the one that wakes it if the other processors seem busy,
-// which idle ones of a virtual machine do, and moves it some milliseconds later.
+// Moves a thread to another processor than the caller's, if the program may use more than one.
+// Linux wakes a thread on the processor of the waking one if the other processors seem busy, as
+// idle ones of a virtual machine do, and moves it some milliseconds later.
 void LeaveProcessorOfCaller(pthread_t thread) {
   cpu_set_t others;
   const int here = sched_getcpu();

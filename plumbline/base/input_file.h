@@ -39,7 +39,11 @@ void RefuseForeignFiles(const std::filesystem::path& folder,
 // others must not be replaced.
 bool IsTaken(const std::filesystem::path& path);
 
-// Returns the kind of an existing path: "a folder", "a file", "a pipe", "a device", "a socket".
+// Throws InputError "path: no such <what>" where there is nothing at the path, and "path: cannot be
+// read: ..." where that cannot be found out (a link onto itself, a folder that nobody may enter).
+void CheckExists(const std::filesystem::path& path, std::string_view what = "file");
+
+// Returns what is at an existing path: "a folder", "a file", "a pipe", "a device", "a socket".
 std::string KindOf(const std::filesystem::path& path);
 
 }  // namespace plumbline

@@ -53,23 +53,4 @@ concept OptionGroup = requires(T& t, FieldProbe probe) {
   VisitFields(probe, t);
 };
 
-// An option of earlier versions that is now a constant of the code. Its row allows files of these
-// versions to be read. Beside the struct of options stands a function found by ADL:
-//
-//   constexpr auto FixedOptions(std::type_identity<LocalBaOptions>) {
-//     return std::array{FixedOption{"initial_lambda", "1e-04"}};
-//   }
-//
-// If a constant changes, its row must change, too.
-struct FixedOption {
-  // Key in its group; dotted if its subgroup was removed as well.
-  std::string_view key;
-  std::string_view value;  // value as written in a file of options
-};
-
-template <class T>
-concept HasFixedOptions = requires {
-  FixedOptions(std::type_identity<T>{});
-};
-
 }  // namespace plumbline

@@ -52,7 +52,7 @@ bool Bounded(const OptionField& field) {
   return field.range && (!std::isinf(field.range->min) || !std::isinf(field.range->max));
 }
 
-// Returns in words what is allowed: "one of a | b", "a whole number, 1 to 10".
+// Returns the allowed values in words: "one of a | b", "a whole number, 1 to 10".
 std::string Allowed(const OptionField& field) {
   struct Name {
     std::string operator()(const bool*) const { return "true or false"; }

@@ -44,12 +44,9 @@ struct OptionField {
 //   table.Set("loop.enabled=false");
 //
 // Settings apply in the order of the calls; a later one replaces an earlier one. All members that
-// read settings throw InputError for an unknown key (with the nearest valid one) and for a value of
-// the wrong type, out of range or not among the choices; the message names file and line, the key,
-// what is allowed and what was found. Settings before the faulty one stay applied. Removed options
-// (FixedOption) are ignored in files and texts that set them to their fixed value, so that files of
-// earlier versions can be read; another value, and any use in Set, is an error that states the
-// fixed value.
+// read settings throw InputError: an unknown key (with the nearest valid one), a value of the wrong
+// type, out of range or not among the choices; the message names file and line, the key, what is
+// allowed and what was found. Settings before the faulty one stay applied.
 class OptionTable {
  public:
   template <OptionGroup T>
@@ -82,8 +79,6 @@ class OptionTable {
   // Returns the dotted keys of all options, in the order of the structs.
   std::vector<std::string> Keys() const;
   const std::vector<OptionField>& fields() const { return fields_; }
-  // Options of earlier versions: the dotted key of each, and its fixed value.
-  const std::map<std::string, std::string>& fixed() const { return fixed_; }
 
  private:
   struct Group {
@@ -144,8 +139,6 @@ class OptionTable {
   }
 
   bool IsGroup(std::string_view key) const;
-  // Returns true if `text` gives an option of earlier versions its fixed value.
-  bool IsFixedAt(const std::string& key, const std::string& text) const;
 
   std::vector<OptionField> fields_;
   std::vector<Group> groups_;

@@ -18,7 +18,7 @@ bool Continues(std::string_view text, std::size_t at) {
   return at < text.size() && (Byte(text, at) & 0xC0U) == 0x80U;
 }
 
-// A character of UTF-8; `bytes` is 0 where there is no valid one.
+// A character of UTF-8; `bytes` is 0 if it is invalid.
 struct Character {
   std::uint32_t code = 0;
   std::size_t bytes = 0;
@@ -45,8 +45,8 @@ Character CharacterAt(std::string_view text, std::size_t at) {
   return {code, bytes};
 }
 
-// Whether a terminal only shows the character: it is no control character, and does not change the
-// direction of the text around it.
+// Returns true if a terminal only shows the character: it is no control character, and does not
+// change the direction of the surrounding text.
 bool IsShown(std::uint32_t code) {
   const auto within = [code](std::uint32_t first, std::uint32_t last) {
     return code >= first && code <= last;

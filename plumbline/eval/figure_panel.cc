@@ -32,7 +32,7 @@ void DrawPanel(const FigurePanel& panel, Figure& figure) {
   for (int axis = 0; axis < 2; ++axis) {
     const double low = panel.range.min()(axis), high = panel.range.max()(axis);
     const double step = GridStep(high - low, axis == 0 ? 8 : 5);
-    // Few lines, of numbers that are large where a small range is far from 0.
+    // Few lines, of numbers that are large if a small range is far from 0.
     const double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
     for (int k = 0; k <= last - first; ++k) {
       const double i = first + k;
@@ -77,7 +77,7 @@ Eigen::AlignedBox2d EqualScale(const Eigen::AlignedBox2d& range, double aspect) 
 std::pair<int, int> AxesOfMostMotion(std::span<const EvaluatedPose> poses) {
   Eigen::AlignedBox3d box;
   for (const EvaluatedPose& pose : poses) box.extend(pose.reference.translation);
-  int least = 2;  // where sizes are equal it is z, which is up in most worlds
+  int least = 2;  // if sizes are equal it is z, which is up in most worlds
   for (const int axis : {1, 0}) {
     if (box.sizes()(axis) < box.sizes()(least)) least = axis;
   }

@@ -45,7 +45,11 @@ std::pair<int, int> AxesOfMostMotion(std::span<const EvaluatedPose> poses);
 // lines in a span.
 double GridStep(double span, int count);
 
-// Returns a number with at most `digits` significant digits.
+// Returns the part of a segment inside a box (Liang and Barsky, A new concept and method for line
+// clipping, 1984).
+std::optional<Segment2> Clipped(const Segment2& segment, const Eigen::AlignedBox2d& box);
+
+// Returns a number with at most so many significant digits.
 std::string FigureNumber(double value, int digits);
 
 }  // namespace plumbline

@@ -15,7 +15,7 @@
 namespace plumbline {
 namespace {
 
-// A set of segments with what is needed to find those close to another segment.
+// A set of segments with an index for finding those close to another segment.
 class SegmentSet {
  public:
   void Add(const Segment3& segment) {
@@ -167,7 +167,7 @@ void AppendGaps(const Segment3& segment,
   if (length > from) gaps.push_back(PartOf(segment, {from, length}));
 }
 
-// Measures the precision and finds the counterparts. Returns what is not covered at the largest
+// Measures the precision and finds the counterparts. Returns the uncovered parts at the largest
 // tolerance.
 std::vector<Segment3> MeasurePrecision(const SegmentSet& truth,
                                        const SegmentSet& estimate,

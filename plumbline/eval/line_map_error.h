@@ -47,7 +47,7 @@ struct LineCounterpart {
 // Results at one tolerance. Shares are in [0, 1]; nullopt for shares and medians of nothing.
 struct LineMapErrorAt {
   double tolerance = 0;          // metres
-  std::optional<double> recall;  // share of the requested length that was found
+  std::optional<double> recall;  // share of the expected length that was found
   std::array<std::optional<double>, kTrueLineKinds> recall_by_kind;  // recall of each TrueLineKind
   std::optional<double> precision;        // share of the estimated length that is right
   std::size_t with_counterpart = 0;       // estimated segments with a counterpart

@@ -17,8 +17,7 @@ namespace {
 
 std::array<Eigen::Vector3d, 4> ImageSides(const Camera& camera) {
   const double right = camera.width() - 1, bottom = camera.height() - 1;
-  // A fisheye has no ray in front of it at its border: the outermost pixel that has one is the
-  // side.
+  // A fisheye has no ray in front of it at its border: the side is the outermost pixel with one.
   const auto ray = [&](Eigen::Vector2d px, const Eigen::Vector2d& inwards) {
     std::optional<Eigen::Vector3d> found;
     for (int i = 0; i < camera.width() + camera.height() && !found; ++i, px += inwards) {
@@ -40,8 +39,8 @@ bool IsVisible(const TrueLine& line, int frame) {
   });
 }
 
-// Returns what one viewer sees of a segment. The planes are in the camera frame, the segment in the
-// world.
+// Returns the part of a segment that one viewer sees. The planes are in the camera frame, the
+// segment in the world.
 std::optional<Stretch> SeenFrom(const LineViewer& viewer,
                                 const Segment3& segment,
                                 const LineViewers& viewers) {

@@ -55,13 +55,13 @@ PathSpread SpreadOf(std::span<const EvaluatedPose> poses) {
   return {Spread(reference), Spread(estimate)};
 }
 
-// Returns the alignment of poses whose positions do not determine all of it. The positions decide
-// what they can: the direction of a line, the scale along it and the mean. The orientations decide
-// the rest, with a weight that changes nothing else: the turn about the line, or the whole rotation
-// where all positions are in one place. The rotation is that of Umeyama's eq. 40, for which only
-// the sum of both correlations is needed.
+// Returns the alignment of poses whose positions do not determine all of it. The positions
+// determine what they can: the direction of a line, the scale along it and the mean. The
+// orientations determine the rest, with a weight that changes nothing else: the rotation about the
+// line, or the whole rotation if all positions coincide. The rotation is that of Umeyama's eq. 40,
+// for which only the sum of both correlations is needed.
 Similarity3 AlignByOrientations(std::span<const EvaluatedPose> poses, bool free_scale) {
-  constexpr double kWeight = 1e-9;     // weight of orientations, where that of positions is 1
+  constexpr double kWeight = 1e-9;     // weight of orientations, relative to that of positions
   constexpr double kRounding = 1e-12;  // spread relative to the coordinates
   const double share = 1 / static_cast<double>(poses.size());
   Eigen::Vector3d source = Eigen::Vector3d::Zero(), target = source;

@@ -34,7 +34,7 @@ constexpr std::array<Figure::Color, 8> kEstimateColors = {{{200, 60, 30},
                                                            {110, 90, 50}}};
 constexpr double kReferenceWidth = 3, kEstimateWidth = 1.3;
 
-// What is drawn, in this order, and the beginning of time.
+// Content of the drawing, in this order, and the origin of time.
 struct Drawn {
   std::vector<NamedError> errors;
   std::int64_t begin_ns = 0;
@@ -122,8 +122,7 @@ void DrawErrors(const Drawn& drawn, FigurePanel panel, Figure& figure) {
 using Coordinate = std::function<double(const Rigid3& world_from_camera)>;
 using Series = std::vector<Vector2d>;  // of time and value
 
-// Adds the line of a series. Where an angle goes on from one end of its range at the other one, the
-// line is broken.
+// Adds the line of a series. If an angle wraps around its range, the line is broken.
 void DrawSeries(const FigurePanel& panel,
                 const Series& series,
                 double range_of_values,
@@ -139,8 +138,7 @@ void DrawSeries(const FigurePanel& panel,
   figure.lines.push_back(std::move(line));
 }
 
-// Draws one coordinate of the poses over time. `turn`: what it begins anew after; infinite for a
-// length.
+// Draws one coordinate of the poses over time. `turn`: its period; infinite for a length.
 void DrawCoordinate(
     const Drawn& drawn, const Coordinate& of, double turn, FigurePanel panel, Figure& figure) {
   std::vector<Series> references, estimates;

@@ -41,7 +41,7 @@ struct DepthSample {
   double spread = 0;  // largest minus smallest valid depth of the neighbourhood
 };
 
-// Returns the depth of the nearest pixel, with the spread over its 3x3 neighbourhood; nullopt where
+// Returns the depth of the nearest pixel, with the spread over its 3x3 neighbourhood; nullopt if
 // the pixel or more than half of its neighbours have no depth.
 std::optional<DepthSample> SampleDepth(const DepthImage& depth, const Eigen::Vector2d& px) {
   if (!(px.x() >= 0 && px.y() >= 0 && px.x() <= depth.width() - 1 &&

@@ -54,7 +54,7 @@ const ValidRegion& RegionOf(const ValidRegion* given, const ValidRegion& whole) 
   return given ? *given : whole;
 }
 
-// Extracts the left view and, for stereo, what its points need of the right one.
+// Extracts the left view and, for stereo, the parts of the right one that its points need.
 std::array<SingleView, 2> ExtractViews(const FeatureInput& input,
                                        const FeatureOptions& options,
                                        HelperThread* helper) {

@@ -19,7 +19,7 @@ constexpr std::size_t kCircle = 16;
 
 [[gnu::always_inline]] inline Byte Min(Byte a, Byte b) { return a < b ? a : b; }
 [[gnu::always_inline]] inline Byte Max(Byte a, Byte b) { return a > b ? a : b; }
-// Returns how much a is above b; 0 where it is not.
+// Returns max(a - b, 0).
 [[gnu::always_inline]] inline Byte Excess(Byte a, Byte b) {
   return static_cast<Byte>(Max(a, b) - b);
 }

@@ -80,7 +80,7 @@ bool FeatureCorrection::IsPlausible() const { return stereo.IsFinite() && lens.I
 void Correct(const FeatureCorrection& before,
              const FeatureCorrection& correction,
              Features& features) {
-  // Disparities are corrected by where they were measured, between the two steps of the lens.
+  // Disparities are corrected at their measured positions, between the two steps of the lens.
   if (!(before.lens == LensCorrection())) Correct(before.lens, {}, features);
   if (!(before.stereo == correction.stereo)) Correct(before.stereo, correction.stereo, features);
   if (!(correction.lens == LensCorrection())) Correct({}, correction.lens, features);

@@ -33,8 +33,8 @@ PointGrid::PointGrid(const std::vector<Eigen::Vector2d>& positions,
 
 namespace {
 
-// Returns the cell of a place among `count`. A place that is no number is in the first one: a file
-// may hold it, and is refused only after the grid was made.
+// Returns the cell of a coordinate among `count`; 0 for NaN, which a file may contain and which is
+// refused only after the grid was made.
 int CellOf(double place, int cell_px, int count) {
   const double cell = std::floor(place / cell_px);
   return cell > 0 ? static_cast<int>(std::min(cell, count - 1.0)) : 0;

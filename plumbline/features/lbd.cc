@@ -13,7 +13,7 @@
 namespace plumbline {
 namespace {
 
-// Rows of samples parallel to the line are two pixels apart, since the smoothed gradient holds no
+// Rows of samples parallel to the line are two pixels apart, since the smoothed gradient has no
 // more detail.
 constexpr int kRowStep = 2;
 constexpr int kRows = (kLbdBands * kLbdBandWidth + kRowStep - 1) / kRowStep;

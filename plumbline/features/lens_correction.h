@@ -31,15 +31,6 @@ class LensCorrection {
   // Returns true if it is finite and small enough not to fold the image over.
   bool IsPlausible() const;
 
-  // Calls visit for each coefficient of `correction`, const or not.
-  template <class Correction, class Visitor>
-  static void VisitNumbers(Correction& correction, const Visitor& visit) {
-    visit(correction.centre_.x());
-    visit(correction.centre_.y());
-    visit(correction.inverse_unit_);
-    visit(correction.border_px_);
-  }
-
  private:
   Eigen::Vector2d FromCentre(const Eigen::Vector2d& px) const {
     return (px - centre_) * inverse_unit_;

@@ -70,8 +70,8 @@ std::optional<LineFeature> MakeLine(const GradientImage& gradient,
   return line;
 }
 
-// Joins one collinear neighbour after the other to the longest segment that it continues, where the
-// result is still found to be an edge. `lines` must be ordered with the longest first.
+// Joins one collinear neighbour after the other to the longest segment that it continues, if the
+// result is still an edge. `lines` must be ordered with the longest first.
 std::vector<LineFeature> MergeLines(const GradientImage& gradient,
                                     const std::vector<LineFeature>& lines,
                                     const LineDetectionOptions& options) {

@@ -15,7 +15,7 @@ constexpr std::size_t kMaxSamples = 48;
 constexpr std::size_t kMinSamples = 6;
 constexpr double kMinInliers = 0.5;
 
-// The places where the edge was found.
+// Edge points found along the segment.
 struct EdgePoints {
   std::array<float, kMaxSamples> along;   // distance from the midpoint along the segment, px
   std::array<float, kMaxSamples> across;  // distance from the segment along the normal, px
@@ -23,7 +23,7 @@ struct EdgePoints {
   std::size_t size = 0;
 };
 
-// Looks for the edge along rows or columns of pixels, whichever cross it more squarely, so that the
+// Searches the edge along rows or columns of pixels, whichever cross it more squarely, so that the
 // gradient is needed only at whole pixels.
 class EdgeFinder {
  public:
@@ -52,7 +52,7 @@ class EdgeFinder {
  private:
   static constexpr int kMaxReach = 10;
 
-  // Looks for the edge on one row (column) of pixels, which the segment's line crosses at `along`.
+  // Searches the edge on one row (column) of pixels, which the segment's line crosses at `along`.
   void FindOn(int grid, double along, EdgePoints* edges) const {
     const double place =
         by_rows_ ? middle_.x() + along * direction_.x() : middle_.y() + along * direction_.y();

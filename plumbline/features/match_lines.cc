@@ -12,7 +12,8 @@
 namespace plumbline {
 namespace {
 
-// Whether both are pieces of one edge, so that neither may spoil the ratio test of the other.
+// Returns true if both are pieces of one edge, so that neither may spoil the ratio test of the
+// other.
 bool Collinear(const Segment2& a, const Segment2& b) {
   constexpr double kMaxOffsetPx = 3;
   constexpr double kMinCosine = 0.998;
@@ -60,7 +61,7 @@ struct Pairing {
   bool mutual = true;
 };
 
-// Finds the best match of each row of a table of distances (`none` where a pair is not allowed),
+// Finds the best match of each row of a table of distances (`none` for pairs that are not allowed),
 // with ratio and mutual tests.
 class DistanceTable {
  public:
@@ -189,7 +190,7 @@ bool SteepCompatible(const Segment2& left,
   return true;
 }
 
-// Whether some disparity of the allowed range brings one line onto the other.
+// Returns true if some disparity of the allowed range brings one line onto the other.
 bool FlatCompatible(const Segment2& left,
                     const Segment2& right,
                     double max_disparity,

@@ -93,8 +93,8 @@ class CandidateSearch {
       positions.push_back(p.px);
       extent = extent.cwiseMax(p.px);
     }
-    // Points that were moved by a motion of few matches may be anywhere. What is beyond this lies
-    // in the grid's last cells.
+    // Points moved by a motion of few matches may be anywhere. Those beyond this limit are in the
+    // grid's last cells.
     constexpr double kLargest = 32768;
     extent = extent.cwiseMin(kLargest);
     const int cell = std::clamp(static_cast<int>(radius), 8, 256);
@@ -133,7 +133,7 @@ class CandidateSearch {
 
  private:
   const std::vector<PointFeature>& set_;
-  DescriptorWords words_;  // filled where all points are candidates
+  DescriptorWords words_;  // filled if all points are candidates
   std::vector<std::uint32_t> distances_;
   std::vector<int> near_;
   PointGrid grid_;

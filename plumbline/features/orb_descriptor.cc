@@ -35,8 +35,8 @@ constexpr PatternAxes AxesOfPattern() {
 
 constexpr PatternAxes kAxes = AxesOfPattern();
 
-// Computes where the turned places lie in the memory of an image of this width, relative to the
-// corner.
+// Computes the offsets of the rotated samples in the memory of an image of this width, relative to
+// the corner.
 struct TurnPattern {
   [[gnu::always_inline]] static inline void Run(float cosine,
                                                 float sine,

@@ -56,9 +56,9 @@ struct SlopesOfRow {
   }
 };
 
-// Returns the derivative along the row, smoothed over three rows (Sobel) and halved; kNone where it
-// is zero. It saturates where grey levels two pixels apart differ by more than 64. The image is
-// reflected at its border, so that its first and last column have no slope.
+// Returns the derivative along the row, smoothed over three rows (Sobel) and halved; kNone for
+// zero. It saturates if grey levels two pixels apart differ by more than 64. The image is reflected
+// at its border, so that its first and last column have no slope.
 GrayImage Slopes(const GrayImage& image) {
   const int width = image.width();
   const int last = image.height() - 1;
@@ -128,8 +128,8 @@ class Window {
 
 // Computes sums of differences between a window and `count` others, each a pixel further to the
 // right in another image of the same width. Windows are given by their first pixels. Sums are exact
-// where they are at most 1 / ratio times the least sum. Larger sums are given only by their part
-// over every second row, which is larger than that already.
+// if they are at most 1 / ratio times the least sum. Of larger sums only the part over every second
+// row is computed, which already exceeds that.
 struct SumDifferences {
   [[gnu::always_inline]] static inline void Run(const std::uint8_t* one,
                                                 const std::uint8_t* others,

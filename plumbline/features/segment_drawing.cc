@@ -27,10 +27,10 @@ constexpr double kMaxScatter = 0.4;  // RMS of all edge points, px
 // Least number of edge points on a segment / pixels of its major axis.
 constexpr double kMinDensity = 0.75;
 
-// What has been done at a pixel.
+// State of a pixel.
 enum Mark : std::uint8_t { kFree = 0, kTried = 1, kDrawn = 2 };
 
-// The gradient as seen along one axis, for edges that run along this major axis within about 45
+// The gradient relative to one axis, for edges that run along this major axis within about 45
 // degrees. Such an edge is minor = f(major), and `across` (the derivative along the minor axis) is
 // large.
 struct AxisView {
@@ -99,8 +99,8 @@ Fit FitSums(const LineSums& s) {
           std::sqrt(std::max(0.0, squares / n) / (1 + slope * slope))};
 }
 
-// Whether the edge seems to go on straight from here, at least on one side: the gradient a few
-// pixels further on must have nearly the same direction. This quick test spares most walks.
+// Returns true if the edge seems to continue straight from here, at least on one side: the gradient
+// a few pixels further on must have nearly the same direction. This quick test avoids most walks.
 bool Promising(const AxisView& view, int major, int minor) {
   constexpr int kAhead = 4;
   const std::ptrdiff_t here = view.Index(major, minor);
@@ -161,7 +161,7 @@ class Walk {
   }
   double Scatter() const { return fit_.scatter; }
   double Density() const { return sums_.n / (last_major_[1] - last_major_[0] + 1.0); }
-  bool Rising() const { return sign_ > 0; }  // whether larger minor coordinates are brighter
+  bool Rising() const { return sign_ > 0; }  // true if larger minor coordinates are brighter
   // Returns the end with the smaller (0) or larger (1) major coordinate, as (major, minor).
   Eigen::Vector2d End(int side) const {
     const int major = last_major_[static_cast<std::size_t>(side)];
@@ -269,8 +269,8 @@ class Walk {
                : fit_.offset + fit_.slope * static_cast<float>(major - anchor_major_);
   }
 
-  // The state before a gap, to which the walk returns if the gap is not overcome. The fit is not
-  // part of it, since it stays the same within a gap.
+  // State before a gap, to which the walk returns if the gap is not overcome. The fit is not
+  // included, since it stays the same within a gap.
   struct BeforeGap {
     LineSums sums;
     std::size_t path = 0;
@@ -310,9 +310,9 @@ class Walk {
 
 int Size(std::int16_t v) { return std::abs(static_cast<int>(v)); }
 
-// Marks with 1 the pixels of a row where the derivative `across` is at least min_strength, not
-// below that along the edge, and larger than beside it; `before` and `after` are the neighbours
-// across. The loop becomes vector code.
+// Marks with 1 the pixels of a row whose derivative `across` is at least min_strength, not below
+// that along the edge, and larger than at both neighbours across, `before` and `after`. The loop is
+// vectorized.
 struct MarkMaxima {
   [[gnu::always_inline]] static inline void Run(const std::int16_t* across,
                                                 const std::int16_t* along,

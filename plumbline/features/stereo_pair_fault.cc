@@ -15,10 +15,10 @@ namespace {
 using Matches = std::vector<StereoPairMatch>;
 using Samples = std::vector<StereoPairSample>;
 
-// How an image is put right.
+// Operation that repairs an image.
 enum class Undo { kNothing, kTurn, kMirrorColumns, kMirrorRows };
 
-// What the images are taken for. The matches are those of the set, with the images put right.
+// Interpretation of the images. The matches are those of the set, with the images repaired.
 struct Reading {
   StereoPairFault fault = StereoPairFault::kOtherCameras;
   Matches StereoPairSample::*set = &StereoPairSample::own;
@@ -65,7 +65,7 @@ constexpr double kInexact = 0.01;
 // Fewer samples may all be of one short moment.
 constexpr int kFewSamples = 3;
 
-// A smooth error of the rows: its value in the middle of the image, and what is added at half the
+// A smooth error of the rows: its value in the middle of the image, and its increments at half the
 // width to the right, and as far below.
 using RowError = Eigen::Vector3d;
 
@@ -221,7 +221,7 @@ Evidence::Counts Evidence::Compare(const Reading& reading, const RowError& own_e
   return counts;
 }
 
-// Whether most points are in the same place of both images as delivered.
+// Returns true if most points have the same position in both images as delivered.
 bool Evidence::SamePlaces(double distance_px, double share) const {
   std::size_t matches = 0;
   std::size_t same = 0;
@@ -234,8 +234,8 @@ bool Evidence::SamePlaces(double distance_px, double share) const {
   return static_cast<double>(same) >= share * static_cast<double>(matches);
 }
 
-// Also where one of the two was compressed: they are almost alike, most points are found again, and
-// none is anywhere else.
+// True also if one of the two was compressed: they are almost equal, most points are found again,
+// and none elsewhere.
 bool Evidence::LeftTwice() const {
   constexpr double kAlike = 0.06;
   constexpr std::size_t kEnough = 100;
@@ -249,8 +249,8 @@ bool Evidence::LeftTwice() const {
   return matches >= kEnough && 10 * matches >= 6 * points && SamePlaces(0.35, 0.97);
 }
 
-// Whether most matches are off their rows in the same smooth way, which is far from zero. This is
-// what is left when nothing else explains them, which few samples may not be enough for.
+// Returns true if most matches are off their rows by the same smooth error, which is far from zero.
+// This is the remaining explanation, for which few samples may not be enough.
 bool Evidence::OtherCameras(const std::vector<RectifiedMatch>& own, const RowError& error) const {
   constexpr std::size_t kEnough = 120;
   constexpr std::size_t kMoreSamples = 5;
@@ -262,8 +262,8 @@ bool Evidence::OtherCameras(const std::vector<RectifiedMatch>& own, const RowErr
          10 * static_cast<std::size_t>(off) >= 6 * own.size();
 }
 
-// Whether the disparities are of points at different depths, or large. Where all points are far
-// away an error of the calibration moves all of them alike, which may be below zero.
+// Returns true if the disparities are of points at different depths, or large. If all points are
+// far away, an error of the calibration moves all of them alike, possibly below zero.
 bool Evidence::DisparitiesTell(const Reading& reading) const {
   std::vector<double> disparities;
   for (const StereoPairSample& sample : samples_) {

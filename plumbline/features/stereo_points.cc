@@ -162,7 +162,7 @@ struct Found {
   double residual = 0;  // grey levels
 };
 
-// Matches the points of one octave. It holds what they share, and searches for each.
+// Matches the points of one octave: common data, and the search for each point.
 class OctaveMatcher {
  public:
   OctaveMatcher(const RectifiedCamera& camera,
@@ -197,7 +197,8 @@ class OctaveMatcher {
   }
 
  private:
-  // Whether the window around a place of the right level has only pixels that the camera saw.
+  // Returns true if the window around a pixel of the right level has only pixels that the camera
+  // saw.
   bool IsReal(const Eigen::Vector2i& at) const {
     // Pixels by which refinement may move the window, and their neighbours.
     constexpr int kRefinement = 3;

@@ -40,7 +40,7 @@ std::optional<std::uint32_t> IdOf(const json& value) {
   return static_cast<std::uint32_t>(number);
 }
 
-// Returns the member, or null where there is none.
+// Returns the member; null if it is missing.
 const json& Member(const json& object, const char* name) {
   static const json null;
   const auto it = object.find(name);
@@ -147,7 +147,7 @@ std::string ServiceFailureText(std::uint32_t service,
 }
 
 std::optional<ClientMessage> ParseClientText(std::string_view text) {
-  // No exceptions are used: what is no JSON becomes a discarded value, which is no object.
+  // No exceptions are used: invalid JSON becomes a discarded value, which is no object.
   const json message = json::parse(text, nullptr, false);
   if (!message.is_object() || !Member(message, "op").is_string()) return std::nullopt;
   const std::string op = message["op"];

@@ -170,7 +170,7 @@ std::optional<double> Camera::UndistortRadius(double distorted_radius) const {
     const double error = distorted_of(s) - distorted_radius;
     (error > 0 ? high : low) = s;
     if (std::abs(error) < kConverged) break;
-    // Takes a Newton step where it stays in the bracket, otherwise bisects.
+    // Takes a Newton step if it stays in the bracket, otherwise bisects.
     s -= error / Evaluate(RadialSlope(intrinsics_), s * s);
     if (!(s > low && s < high)) s = 0.5 * (low + high);
   }

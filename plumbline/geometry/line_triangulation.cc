@@ -79,7 +79,7 @@ struct PlanePair {
 };
 
 PlanePair WidestPair(const std::vector<Eigen::Vector4d>& planes) {
-  // The normals have unit length. Where their cosine is larger by more than rounding, the angle is
+  // The normals have unit length. If their cosine is larger by more than rounding, the angle is
   // smaller.
   constexpr double kRounding = 1e-12;
   PlanePair widest;
@@ -100,7 +100,7 @@ PlanePair WidestPair(const std::vector<Eigen::Vector4d>& planes) {
 }
 
 // Returns the line of eq. 25 about an origin on the line through the widest pair of planes, with
-// lengths in units of its distance from the camera.
+// lengths relative to its distance from the camera.
 std::optional<PluckerLine> LinearLine(const RectifiedCamera& camera,
                                       std::span<const LineView> views,
                                       const std::vector<Eigen::Vector4d>& planes,

@@ -19,7 +19,7 @@ constexpr double kMinFocal = 0.01, kMaxFocal = 1000;
 // Largest distance of the principal point from an image that was cut out, in longer sides.
 constexpr double kFarthestCentre = 10;
 constexpr double kLargestCoefficient = 1e6;
-// What rounding in a calibration file may leave in a pair that is declared rectified.
+// Rounding errors of a calibration file allowed in a pair that is declared rectified.
 constexpr double kMaxRectifiedAngle = 1e-3;  // radians
 constexpr double kMaxRectifiedTilt = 0.02;   // relative to the baseline
 // Optical axes that are further apart see nothing in common.

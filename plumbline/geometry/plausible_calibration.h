@@ -41,8 +41,8 @@ std::optional<std::string> IntrinsicsFault(const CameraIntrinsics& intrinsics,
 std::optional<std::string> DistortionFault(const CameraIntrinsics& intrinsics);
 
 // Checks the cameras of a calibration with `right`. The right camera must stand to the right of the
-// left one, at a baseline of kMinBaseline to kMaxBaseline, have the same viewing direction and
-// images of the same size, and, if these are declared rectified, no relative rotation.
+// left one, at a baseline of kMinBaseline to kMaxBaseline, face nearly the same direction, have
+// images of the same size and, if these are declared rectified, no relative rotation.
 std::optional<std::string> PairFault(const Calibration& calibration);
 
 // Checks a whole calibration: sizes, intrinsics and lenses of its cameras, their relative pose, and

@@ -11,7 +11,8 @@
 namespace plumbline {
 namespace {
 
-// Coefficients of I + a [w]x + b [w]x^2 forms, by series where the closed form cancels.
+// Coefficients of I + a [w]x + b [w]x^2 forms, by series if the closed form suffers from
+// cancellation.
 struct Coefficients {
   double sine;    // sin(t) / t
   double cosine;  // (1 - cos(t)) / t^2

@@ -16,8 +16,8 @@ std::vector<Stretch> WellCovered(std::span<const Stretch> stretches,
                                  std::span<const Stretch> expected,
                                  int count,
                                  double share) {
-  // A place where one of the two numbers changes. Begins come before ends, so that stretches that
-  // touch are one.
+  // A parameter at which one of the two numbers changes. Begins come before ends, so that stretches
+  // that touch are one.
   struct Event {
     double place;
     bool ends;

@@ -141,7 +141,7 @@ Expected<TriangulatedPoint, PointTriangulationFailure> TriangulatePoint(
     const Eigen::Vector3d step = SolveSymmetric<3>(equations->information, equations->gradient);
     const Eigen::Vector3d trial = point - step;
     std::optional<NormalEquations> trial_equations = Linearize(camera, views, rotations, trial);
-    // The loop also ends where the step is not finite.
+    // The loop also ends if the step is not finite.
     if (!trial_equations || !(trial_equations->chi2 <= equations->chi2)) break;
     point = trial;
     equations = std::move(trial_equations);

@@ -32,7 +32,7 @@ struct PngPixels {
   int type = 0;  // type of the matrix
 };
 
-// Returns the format for a kind of image; a type of -1 where that kind is not decoded here.
+// Returns the format for a kind of image; type -1 if that kind is not decoded here.
 PngPixels PixelsOf(const spng_ihdr& header) {
   const bool grey = header.color_type == SPNG_COLOR_TYPE_GRAYSCALE;
   const bool color = header.color_type == SPNG_COLOR_TYPE_TRUECOLOR ||

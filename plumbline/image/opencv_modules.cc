@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kLibrary = "libplumbline_opencv.so";
 constexpr const char* kFunction = "PlumblineOpenCvModules";
 
-// Whether a library could not be loaded for lack of memory, judged by the message of glibc.
+// Returns true if a library could not be loaded for lack of memory, judged by the message of glibc.
 bool IsOutOfMemory(std::string_view reason) {
   constexpr std::array kReasons{"failed to map segment", "annot allocate", "cannot map zero-fill"};
   return std::any_of(kReasons.begin(), kReasons.end(), [&](const char* text) {

@@ -120,8 +120,7 @@ std::string SizeText(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// Throws InputError where a fault was found. Calibrations that were read from a file have passed
-// the same checks before.
+// Throws InputError for a fault. Calibrations read from a file have already passed the same checks.
 void Refuse(const std::optional<std::string>& fault) {
   if (fault) throw InputError("calibration: " + *fault);
 }

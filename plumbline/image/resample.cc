@@ -15,7 +15,7 @@ namespace {
 void SumColumns(const std::uint8_t* row, std::uint32_t source, std::vector<std::uint32_t>& sums) {
   const auto target = static_cast<std::uint32_t>(sums.size());
   std::uint32_t sum = 0;
-  std::uint32_t left = source;  // units of the sum that are still to come
+  std::uint32_t left = source;  // part of the sum that is still missing
   std::size_t column = 0;
   for (std::uint32_t x = 0; x < source; ++x) {
     const std::uint32_t level = row[x];

@@ -21,8 +21,8 @@ extern "C" {
 namespace plumbline {
 namespace {
 
-// FFmpeg writes to standard error, by default all that it notices. As OpenCV does: errors alone, or
-// what the environment asks for.
+// FFmpeg logs to standard error, by default verbosely. As in OpenCV, only errors are logged, or the
+// level set in the environment.
 void SetLogLevel() {
   const char* level = std::getenv("OPENCV_FFMPEG_LOGLEVEL");  // NOLINT(concurrency-mt-unsafe)
   av_log_set_level(level != nullptr ? std::atoi(level) : AV_LOG_ERROR);  // NOLINT(cert-err34-c)
@@ -90,7 +90,7 @@ class FfmpegDecoder : public VideoDecoder {
     const AVRational rate = stream_->avg_frame_rate;
     if (rate.num > 0 && rate.den > 0) properties_.rate_hz = av_q2d(rate);
     properties_.frames = stream_->nb_frames;
-    // Of QuickTime files the index is what an edit list leaves.
+    // The index of QuickTime files contains only the frames that an edit list leaves.
     if (std::string_view(format_->iformat->name).starts_with("mov")) {
       properties_.frames = avformat_index_get_entries_count(stream_);
     }

@@ -33,7 +33,7 @@ void Check(const CuttingProblem& problem) {
   }
 }
 
-// Does one pass over all lines (Algorithm 1). Returns how much log det has risen.
+// Does one pass over all lines (Algorithm 1). Returns the increase of log det.
 double Sweep(const CuttingProblem& problem, CuttingInformation information, Cuts& cuts) {
   InformationSums sums = SumInformation(problem, cuts, information);
   double gain = 0;
@@ -53,7 +53,7 @@ Cuts CutGreedily(const CuttingProblem& problem, CuttingInformation information, 
   for (int sweep = 1; sweep < max_sweeps; ++sweep) {
     Cuts better = cuts;
     const double gain = Sweep(problem, information, better);
-    // The information as printed grows without bound where it becomes singular, so that log det is
+    // The printed information grows without bound if it becomes singular, so that log det is
     // computed anew from the cuts.
     const double before = LogDeterminantOf(problem, cuts, information);
     if (!(LogDeterminantOf(problem, better, information) >= before)) break;

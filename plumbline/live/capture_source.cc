@@ -26,7 +26,7 @@ constexpr std::chrono::seconds kReopenFor(10);
 constexpr std::chrono::milliseconds kReopenEvery(500);
 constexpr std::int64_t kAfterLossNs = 1'000'000;  // time from the last frame to the missing one
 
-// Returns the image of a camera, which is a half of it where one image has those of both.
+// Returns the image of a camera: half of the delivered image if that shows both cameras.
 cv::Mat ImageOf(const CapturedImages& taken, int camera, bool side_by_side) {
   if (!side_by_side) return taken.images[static_cast<std::size_t>(camera)];
   const cv::Mat& both = taken.images[0];
@@ -34,7 +34,7 @@ cv::Mat ImageOf(const CapturedImages& taken, int camera, bool side_by_side) {
   return both.empty() ? both : both(cv::Rect(camera * width, 0, width, both.rows));
 }
 
-// What is known when a source is open.
+// Description of an open source.
 struct Opened {
   CaptureDevices devices;
   std::optional<CapturedImages> first;
@@ -120,8 +120,7 @@ class CaptureSource : public LiveSource {
  private:
   static ImageSize SizeOf(const Camera& camera) { return {camera.width(), camera.height()}; }
 
-  // Returns the first frame of a device that came back; nullopt where it does not come back in
-  // time.
+  // Returns the first frame of a device that came back; nullopt if it does not come back in time.
   std::optional<CapturedImages> TakeAgain() {
     const auto end = std::chrono::steady_clock::now() + kReopenFor;
     do {

@@ -13,8 +13,8 @@ constexpr std::string_view kHidden = "***";
 
 bool IsBlank(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 
-// Hides the passwords of all URLs. Where a pipeline names several, an authority ends at a blank,
-// too; in a single URL a blank may be part of the password.
+// Hides the passwords of all URLs. If a pipeline names several, an authority ends at a blank, too;
+// in a single URL a blank may be part of the password.
 std::string WithoutUrlPasswords(const std::string& name) {
   constexpr std::string_view kBehindScheme = "://";
   const char* ends = LiveKindOf(name) == LiveKind::kGstreamer ? "/ \t\r\n" : "/";
@@ -32,7 +32,7 @@ std::string WithoutUrlPasswords(const std::string& name) {
   return shown;
 }
 
-// Returns where a value of a GStreamer pipeline ends: behind its closing quote, or at a blank.
+// Returns the end of a value of a GStreamer pipeline: after its closing quote, or at a blank.
 std::size_t EndOfValue(const std::string& text, std::size_t begin) {
   if (begin >= text.size()) return text.size();
   const char quote = text[begin] == '"' || text[begin] == '\'' ? text[begin] : '\0';

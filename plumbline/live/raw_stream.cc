@@ -33,8 +33,8 @@ class PipeReader {
  public:
   explicit PipeReader(int descriptor) : descriptor_(descriptor), buffer_(kBufferBytes) {}
 
-  // Reads the next line without its end. Returns false where the stream ends before the line does,
-  // or the line is too long; `line` then has what was read.
+  // Reads the next line without its end. Returns false if the stream ends before the line does, or
+  // the line is too long; `line` then has the bytes read.
   bool Line(std::string& line) {
     line.clear();
     while (line.size() < kLongestLine) {
@@ -46,7 +46,7 @@ class PipeReader {
     return false;
   }
 
-  // Returns false where the stream ends first.
+  // Returns false if the stream ends first.
   bool Bytes(std::vector<std::uint8_t>& bytes) {
     std::size_t filled = 0;
     while (filled < bytes.size()) {

@@ -12,7 +12,7 @@
 namespace plumbline {
 namespace {
 
-// Sums target * source^T over pairs of vectors that are brought to unit length.
+// Sums target * source^T over normalized pairs of vectors.
 class TurnedVectors {
  public:
   void Add(const Eigen::Vector3d& source, const Eigen::Vector3d& target) {
@@ -20,7 +20,7 @@ class TurnedVectors {
     if (lengths > 0) sum_ += target * source.transpose() / lengths;
   }
 
-  // Returns nullopt where the vectors lie along one line.
+  // Returns nullopt if the vectors are collinear.
   std::optional<Eigen::Quaterniond> Rotation() const {
     constexpr double kLeast = 1e-3;
     const RotationFit fit = FitRotation(sum_);

@@ -19,7 +19,7 @@ bool ShowBoth(const Observations& a, const Observations& b) {
   return std::any_of(a.begin(), a.end(), [&](const auto& seen) { return b.contains(seen.first); });
 }
 
-// Returns a landmark pair as the map has it today; nullopt where it cannot be fused (any more).
+// Returns a landmark pair with its current ids; nullopt if it cannot be fused (any more).
 template <class LandmarkId>
 std::optional<LandmarkPair<LandmarkId>> Fusible(const Map& map,
                                                 const LandmarkPair<LandmarkId>& pair) {
@@ -74,8 +74,8 @@ MapCorrection CorrectionOf(const Map& map,
   MapCorrection correction;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const KeyFrameId id = essential.keyframes[i];
-    // The camera's own axes are in its new unit, so that lengths around it in the world are divided
-    // by it.
+    // The camera's own axes are in its new scale, so that lengths around it in the world are
+    // divided by that scale.
     const Similarity3& cam_from_world = poses[i];
     const Rigid3 after{cam_from_world.rotation, cam_from_world.translation / cam_from_world.scale};
     correction.keyframes[id] = {
@@ -98,9 +98,9 @@ std::vector<int> AddLoops(const Map& map,
   return places;
 }
 
-// Returns a lower bound of how much a loop raises the sum of chi2 over all believed edges. The sum
-// without the loop is not solved for: that of the poses as they are is at least as large and takes
-// its place.
+// Returns a lower bound of the increase of the sum of chi2 over all believed edges by a loop. The
+// sum without the loop is not solved for: that of the current poses is at least as large and
+// replaces it.
 double RaisedChi2(const PoseGraph& graph, std::size_t loop, const PoseGraphResult& solved) {
   const int size = graph.motion == PoseGraphMotion::kRigid ? 6 : 7;
   double raised = 0;

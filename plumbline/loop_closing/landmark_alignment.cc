@@ -54,7 +54,7 @@ Eigen::Matrix3d ViewJacobian(const RectifiedCamera& camera, const Eigen::Vector3
   return J;
 }
 
-// Whitens by the Cholesky factor; returns false where the covariance is not positive definite.
+// Whitens by the Cholesky factor; returns false if the covariance is not positive definite.
 template <int kRows>
 bool Whiten(const Eigen::Matrix<double, kRows, kRows>& covariance,
             const Eigen::Matrix<double, kRows, 1>& r,
@@ -155,8 +155,8 @@ class Evaluator {
     return J * RegularizedInformation(information).llt().solve(J.transpose());
   }
 
-  // Returns two parameters along the query's line: the ends of the part that both intervals share,
-  // or those of its own interval where they share too little.
+  // Returns two parameters along the query's line: the ends of the overlap of both intervals, or
+  // those of its own interval if they overlap too little.
   std::array<double, 2> PlacesOnBoth(const AlignmentProblem::LinePair& pair) const {
     const LineModel& query = pair.in_query;
     const LineModel& candidate = pair.in_candidate;
@@ -272,7 +272,7 @@ class MatchProblem {
   bool Same(const Model&, const Model&) const { return true; }
 
  private:
-  // The gate is wide, because what a sample predicts contains the sample's own errors.
+  // The gate is wide, because predictions of a sample contain the sample's own errors.
   static constexpr double kGate = 4;
 
   template <class Match>

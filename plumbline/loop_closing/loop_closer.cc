@@ -17,9 +17,9 @@ namespace {
 // Newest loops with which a new one is compared.
 constexpr std::size_t kCompared = 10;
 constexpr std::size_t kMostWaiting = 5;  // most loops that may wait for another keyframe
-constexpr std::int64_t kWaitFor = 5;     // age in keyframes after which such a loop is forgotten
+constexpr std::int64_t kWaitFor = 5;     // age in keyframes at which such a loop is dropped
 
-// Returns for each pair of loops whether they agree by way of odometry.
+// Returns for each pair of loops true if they agree by way of odometry.
 std::vector<std::vector<bool>> Consistency(OdometryWays& odometry,
                                            const std::vector<PoseGraphEdge>& loops,
                                            double max_chi2) {
@@ -63,7 +63,7 @@ class ShownLandmarks {
   std::vector<LineId> lines_;
 };
 
-// Whether a candidate shares landmarks with one of some other keyframes.
+// Returns true if a candidate shares landmarks with any of some other keyframes.
 bool IsBesideAny(const Map& map, KeyFrameId candidate, const std::vector<KeyFrameId>& others) {
   if (others.empty()) return false;
   const ShownLandmarks shown(map.Find(candidate)->frame);
@@ -190,7 +190,8 @@ std::optional<LoopClosure> LoopCloser::Close(const Map& map,
   return closure;
 }
 
-// Whether other evidence than the images supports a loop. The attempt records what contradicts it.
+// Returns true if evidence other than the images supports a loop. The attempt records
+// contradictions.
 bool LoopCloser::Supported(const Map& map, const EssentialGraph& essential, LoopAttempt& attempt) {
   const LoopEdge& edge = *attempt.edge;
   const auto newest = LoopAsEdge(map, essential, edge);
@@ -207,8 +208,8 @@ bool LoopCloser::Supported(const Map& map, const EssentialGraph& essential, Loop
   if (attempt.uncertain) return false;
   attempt.inconsistent = !AgreesWithTheOthers(map, essential, *newest, odometry);
   if (attempt.inconsistent) return false;
-  // Another query must confirm the loop where no neighbour of the query could be asked, or where
-  // the usual drift of odometry contradicts it.
+  // Another query must confirm the loop if no neighbour of the query could be tested, or if the
+  // usual drift of odometry contradicts it.
   attempt.waits = (edge.evidence.asked == 0 || attempt.drifted_far) &&
                   !WasSaidBefore(map, essential, edge, *newest, odometry);
   if (attempt.waits) Wait(edge);

@@ -72,26 +72,6 @@ class LoopCloser {
   // Results of the last call of Try, one for each tried candidate.
   const std::vector<LoopAttempt>& attempts() const { return attempts_; }
 
-  // State needed, beside the map, to continue. Another closer with the same options and state
-  // behaves the same.
-  struct State {
-    std::vector<LoopEdge> loops;
-    std::vector<LoopEdge> waiting;
-    KeyFrameId last_closed;
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.loops, self.waiting, self.last_closed);
-    }
-  };
-  State state() const { return {loops_, waiting_, last_closed_}; }
-  void SetState(const State& state) {
-    loops_ = state.loops;
-    waiting_ = state.waiting;
-    last_closed_ = state.last_closed;
-    covisible_.Forget();
-  }
-
  private:
   class Drifts;
 

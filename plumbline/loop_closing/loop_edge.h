@@ -28,19 +28,8 @@ struct LoopEvidence {
   double spread = 0;
   // Share of the cells with predicted landmarks that have matches.
   double area_share = 0;
-  int asked = 0;      // neighbouring keyframes that were tested
-  int confirmed = 0;  // tested keyframes that agree
-
-  template <class Self, class Visitor>
-  static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.first_matches,
-          self.inlier_points,
-          self.inlier_lines,
-          self.tested,
-          self.chance_share,
-          self.log10_chance);
-    visit(self.rival_share, self.spread, self.area_share, self.asked, self.confirmed);
-  }
+  int asked = 0;      // neighbouring keyframes that were asked
+  int confirmed = 0;  // asked keyframes that agree
 };
 
 // Two landmarks, around the query and around the candidate, that are the same in the world.

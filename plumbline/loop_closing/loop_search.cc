@@ -31,8 +31,7 @@ bool Before(const Landmark* a, const Landmark* b) {
   return a->id < b->id;
 }
 
-// Removes from both lists what they have in common, and returns the ids of that. Both must be
-// ordered by id.
+// Removes the common elements from both lists, and returns their ids. Both must be ordered by id.
 template <class Landmark>
 auto TakeOutCommon(std::vector<const Landmark*>& a, std::vector<const Landmark*>& b) {
   std::vector<const Landmark*> common;
@@ -69,8 +68,8 @@ FeaturesOfLandmarks<Feature> WithLandmarks(const std::vector<Feature>& features,
   return out;
 }
 
-// Returns for each pair whether it is to be kept: no other pair contradicts it, and it is the first
-// of several equal ones.
+// Returns for each pair true if it is kept: no other pair contradicts it, and it is the first of
+// several equal ones.
 template <class LandmarkId>
 std::vector<bool> Consistent(const std::vector<LandmarkPair<LandmarkId>>& pairs) {
   std::map<LandmarkId, LandmarkId> partner_of_query;

@@ -28,7 +28,7 @@ class Ends {
 
   bool IsLate(KeyFrameId id) const { return 2 * id.value >= early_end_.value + late_end_.value; }
 
-  // Whether the loop makes one landmark of these observations.
+  // Returns true if the loop fused these observations into one landmark.
   bool Ties(const Observations& seen) const {
     const auto first_late = std::find_if(
         seen.begin(), seen.end(), [&](const auto& entry) { return IsLate(entry.first); });

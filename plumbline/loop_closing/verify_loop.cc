@@ -39,7 +39,7 @@ int WeightedCount(const AlignmentResult& result) {
   return Count(result.points) + Count(result.sightings) + kLineWeight * Count(result.lines);
 }
 
-// The places of matches in one image, and which cells of it should show something.
+// Positions of matches in one image, and its cells with predicted landmarks.
 class Coverage {
  public:
   explicit Coverage(const RectifiedCamera& camera)
@@ -109,7 +109,7 @@ Coverage CoverageOf(const RectifiedCamera& camera,
   return coverage;
 }
 
-// Returns how many lines would be found under the worst of some wrong shifts of the image.
+// Returns the number of lines found under the worst of some wrong shifts of the image.
 int ShiftedLines(const FrameFeatures& image,
                  const std::vector<std::optional<ProjectedLine>>& lines,
                  double radius_px) {
@@ -220,7 +220,7 @@ class Verification {
     evidence_.tested =
         there.tested_points + there.tested_lines + back.tested_points + back.tested_lines;
     evidence_.chance_share = tally_share_;
-    // The two searches look at the same features, so that together they count once.
+    // Both searches use the same features, so that together they count once.
     evidence_.log10_chance = 0.5 * (there.Log10Chance() + back.Log10Chance());
     evidence_.rival_share =
         Share(there.shifted_points + back.shifted_points, there.points + back.points);
@@ -309,10 +309,10 @@ class Verification {
            Log10BinomialTail(found.tested_lines, static_cast<int>(found.lines.size()), line_share_);
   }
 
-  // Refines the relative pose once more, with the pairs that neighbours found: these see the place
-  // from elsewhere, and decide what the two keyframes leave open. If the relative pose changes by
-  // more than its uncertainty allows, the map is bent around one of the two, and the first result
-  // stays.
+  // Refines the relative pose once more, with the pairs found by neighbours: these see the place
+  // from other viewpoints, and determine the directions that the two keyframes leave undetermined.
+  // If the relative pose changes by more than its uncertainty allows, the map is bent around one of
+  // the two, and the first result stays.
   void Settle(const LoopMatches& more) {
     LoopMatches all = found_.matches;
     all.points.insert(all.points.end(), more.points.begin(), more.points.end());
@@ -336,8 +336,8 @@ class Verification {
     LimitCertainty();
   }
 
-  // Limits how certain the result may be. Errors of landmarks have much in common: the keyframes
-  // that they depend on, the calibration.
+  // Limits the certainty of the result. Errors of landmarks are correlated: by their keyframes and
+  // the calibration.
   void LimitCertainty() {
     result_.covariance *=
         std::max(1.0, static_cast<double>(WeightedCount(result_)) / options_.independent_matches);

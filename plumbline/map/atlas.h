@@ -43,21 +43,8 @@ class Atlas {
   // Absorbed maps, each with the map that absorbed it.
   const std::map<MapId, MapId>& joined() const { return joined_; }
 
-  // State beside the present maps: the absorbed maps, and the id of the next map. A restored atlas
-  // needs it to continue like the original.
-  struct History {
-    std::map<MapId, MapId> joined;
-    MapId next_map{0};
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.joined, self.next_map);
-    }
-  };
-  History history() const { return {joined_, next_map_}; }
-  // Throws BugError if a map was absorbed by one that the atlas does not have.
-  void SetHistory(const History& history);
-
+  // Returns the id that the next map gets.
+  MapId NextMapId() const { return next_map_; }
   // Returns the first id that no keyframe of any map has had.
   KeyFrameId NextKeyFrameId() const;
 

@@ -392,7 +392,7 @@ void Map::Absorb(Map other, const Similarity3& this_from_other) {
     motion.new_from_old.emplace(id, this_from_other);
   }
   Undo undo(*this);
-  // Numbers tell how many keyframes ago something was: the map that grows has the largest ones.
+  // KeyFrame::number measures age in keyframes: the growing map has the largest ones.
   if (next_keyframe_ > other.next_keyframe_) {
     ShiftNumbers(other.keyframes_taken_in_);
   } else {

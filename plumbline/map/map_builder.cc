@@ -43,7 +43,7 @@ bool IsInRange(LandmarkId id, LandmarkId next) {
   return id.valid() && id < next;
 }
 
-// Whether following `next_of` from any of its keys comes to an end.
+// Returns true if following `next_of` from any of its keys terminates.
 template <class Key, class Value, class Next>
 bool ComesToAnEnd(const std::map<Key, Value>& next_of, const Next& next) {
   std::set<Key> ended;

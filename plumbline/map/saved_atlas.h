@@ -29,13 +29,12 @@ struct AtlasContext {
   RectifiedCamera camera;  // camera of all features
   Eigen::Quaterniond rectified_from_left = Eigen::Quaterniond::Identity();
   double octave_scale = 1.2;  // scale between octaves of the points' image pyramid
-  // Fingerprint of the rig of the evidence (FingerprintOf(Calibration)); 0: unknown. The evidence
-  // is void for another calibration; corrections applied to maps stay valid.
-  std::uint64_t calibration = 0;
+  // What is known of the pair of cameras. It is worth something only to a run with the same
+  // rectified camera, turned against the left one in the same way (CameraDifference).
   StereoEvidence stereo_evidence;
-  FrontEndFingerprint front_end;
-  std::string options_yaml;       // options that affected the results
-  std::vector<Session> sessions;  // index: KeyFrame::session
+  std::int32_t feature_format = 0;  // kFeatureFormat of the program that measured; 0: unknown
+  std::string options_yaml;         // options that decided about the results
+  std::vector<Session> sessions;    // index: KeyFrame::session
   std::map<MapId, MapContext> maps;
 };
 

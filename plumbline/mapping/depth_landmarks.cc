@@ -10,8 +10,8 @@
 namespace plumbline {
 namespace {
 
-// Points with a relative depth deviation up to this are made where a keyframe shows too few better
-// ones. Worse ones say hardly more than their direction.
+// Points with a relative depth deviation up to this are made if a keyframe shows too few better
+// ones. Worse ones constrain hardly more than their direction.
 constexpr double kWorstDepthSigma = 0.3;
 
 struct DepthPoint {

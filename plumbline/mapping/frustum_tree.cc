@@ -16,7 +16,7 @@ namespace plumbline {
 namespace {
 
 constexpr int kLeaf = 4;
-// Margin with which rounding does not leave out what an exact test would take.
+// Margin against rounding, so that nothing is missed that an exact test would find.
 constexpr double kMargin = 1e-6;
 
 double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {

@@ -12,7 +12,7 @@
 namespace plumbline {
 namespace {
 
-// A young landmark must be found in this share of the frames where it should be seen.
+// A recent landmark must be found in this share of the frames in which it is predicted.
 constexpr double kMinFoundRatio = 0.25;
 // A landmark is on trial for so many keyframes. After that at least kMinObservations keyframes must
 // show it: a landmark that one keyframe shows ties nothing together.
@@ -48,8 +48,8 @@ int OctaveOf(const Map& map, KeyFrameId keyframe, int feature) {
   return map.Find(keyframe)->frame.features().points[static_cast<std::size_t>(feature)].octave;
 }
 
-// Whether at least `views` of the observations count. Looks at no more observations than it needs
-// to.
+// Returns true if at least `views` of the observations count. Visits no more observations than
+// necessary.
 template <class Counts>
 bool HasViews(const Observations& observations, int views, const Counts& counts) {
   for (auto o = observations.begin(); o != observations.end() && views > 0; ++o) {
@@ -85,7 +85,7 @@ constexpr std::int64_t kVisit = 20;
 struct Redundancy {
   // Share of a keyframe's landmarks that at least kRedundantViews others must show.
   double share = 0.9;
-  bool again = false;  // whether one of these others must be of another visit
+  bool again = false;  // true: one of these others must be of another visit
 };
 
 bool IsOfAnotherVisit(const Map& map, KeyFrameId other, const KeyFrame& keyframe) {
@@ -93,9 +93,9 @@ bool IsOfAnotherVisit(const Map& map, KeyFrameId other, const KeyFrame& keyframe
   return apart > kVisit || apart < -kVisit;
 }
 
-// Whether other keyframes show the share of a keyframe's landmarks that the rule asks for, points
-// as sharply as this keyframe does. The test of the numbers of views comes first, since for most
-// keyframes it alone shows that they do not.
+// Returns true if other keyframes show the required share of a keyframe's landmarks, points as
+// sharply as this keyframe does. The test of the numbers of views comes first, since it alone
+// rejects most keyframes.
 bool IsRedundant(const Map& map, const KeyFrame& keyframe, const Redundancy& rule) {
   const Frame& frame = keyframe.frame;
   SharedLandmarks shared;
@@ -139,9 +139,9 @@ MapEdit RemoveWeakLandmarks(const Map& map, KeyFrameId newest, RecentLandmarks& 
 
 namespace {
 
-// Returns the first redundant keyframe among those around `centre`, looked at in the order of
-// covisibility; nullptr where none is redundant. The first keyframe of the map, `centre` and the
-// keyframe before it are never redundant. Looks at no more than `most` keyframes.
+// Returns the first redundant keyframe among those around `centre`, in the order of covisibility;
+// nullptr if none is redundant. The first keyframe of the map, `centre` and the keyframe before it
+// are never redundant. Visits at most `most` keyframes.
 const KeyFrame* FindRedundant(const Map& map,
                               KeyFrameId centre,
                               std::size_t most,
@@ -184,7 +184,7 @@ void RemoveForsaken(const Map& map,
 MapEdit RemoveRedundantKeyFrames(const Map& map, KeyFrameId centre, const CleanupOptions& options) {
   const KeyFrame* redundant =
       FindRedundant(map, centre, map.keyframes().size(), {options.redundant_share, false});
-  // One keyframe at a time is removed, since each removal changes what the others share.
+  // One keyframe at a time is removed, since each removal changes the shares of the others.
   if (redundant == nullptr) return {};
   return {edit::RemoveKeyFrame{redundant->id}};
 }

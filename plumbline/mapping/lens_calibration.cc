@@ -30,7 +30,7 @@ class Profile {
     problem_.parallel_lines.clear();
   }
 
-  // Returns nullopt where the numbers are not finite, and when stopped.
+  // Returns nullopt if the numbers are not finite, and when stopped.
   std::optional<double> At(double border_px) {
     const auto known = solved_.find(border_px);
     if (known != solved_.end()) return known->second.final_cost;
@@ -74,8 +74,8 @@ struct Parabola {
   double minimum = 0;    // correction at which the cost is least
   double curvature = 0;  // second derivative of the cost
 
-  // Returns by how much the correction at the minimum lowers the cost compared with no correction.
-  // Holds for a parabola that was fitted around zero.
+  // Returns the decrease of the cost by the correction at the minimum, compared with no correction.
+  // Valid for a parabola fitted around zero.
   double Gain() const { return 0.5 * curvature * minimum * minimum; }
 };
 
@@ -86,8 +86,8 @@ Parabola Through(double middle, double step, const std::array<double, 3>& costs)
   return {middle - slope / curvature, curvature};
 }
 
-// Returns by how much a correction of one pixel at the border moves the points of a problem, as the
-// root mean square [px].
+// Returns the displacement of the points of a problem by a correction of one pixel at the border,
+// as the root mean square [px].
 double MeanSize(const BaProblem& problem) {
   const LensCorrection one(problem.camera, 1);
   double sum = 0;
@@ -97,7 +97,7 @@ double MeanSize(const BaProblem& problem) {
   return std::sqrt(sum / static_cast<double>(problem.point_observations.size()));
 }
 
-// Fits a parabola to the profile around `middle`; nullopt where it has no minimum near by.
+// Fits a parabola to the profile around `middle`; nullopt if it has no minimum nearby.
 std::optional<Parabola> FitAround(Profile& profile, double middle, double step, double most) {
   std::array<double, 3> costs{};
   for (const std::size_t i : {1, 0, 2}) {
@@ -130,14 +130,14 @@ RadialCalibration CalibrateRadialDistortion(const BaProblem& problem,
                                             double known_px,
                                             const StopCheck& stop) {
   // Steps between corrections, relative to the width of the image. With the first step all points
-  // stay near where they were, which takes few iterations; the second leads to the places that a
-  // large correction asks for.
+  // stay close to their positions, which takes few iterations; the second leads to the positions of
+  // a large correction.
   constexpr double kFirstStep = 0.0005;
   constexpr double kStep = 0.002;
   constexpr double kMost = 3;  // largest correction and change, in deviations of the prior
-  // In a map of a camera that goes straight on, 4.6 deviations spoke for a correction where there
-  // was nothing to correct: an error of a corner is the same in all its views, but the cost takes
-  // the views for independent.
+  // In a map of a camera in straight motion, 4.6 deviations spoke for a correction without any
+  // distortion: an error of a corner is the same in all its views, but the cost assumes independent
+  // views.
   constexpr double kSigmas = 6;
   constexpr double kEnough = 0.5 * kSigmas * kSigmas;  // least decrease of the cost
   // A smaller change of the known correction, relative to the width, is not worth an adjustment.
@@ -156,8 +156,8 @@ RadialCalibration CalibrateRadialDistortion(const BaProblem& problem,
   }
   fit = FitAround(profile, 0, step, kMost * sigma);
   if (!fit) return {};
-  // The profile is a parabola only near its minimum, so that a distant minimum is fitted again.
-  // Where that leads elsewhere, points have stuck on the way.
+  // The profile is a parabola only near its minimum, so that a distant minimum is fitted again. If
+  // that leads elsewhere, points have got stuck on the way.
   if (std::abs(fit->minimum) > step) {
     const double middle = fit->minimum;
     fit = FitAround(profile, middle, step, kMost * sigma);

@@ -30,7 +30,7 @@ edit::MoveLine RefitInterval(const Map& map,
   for (const auto& [id, feature] : line.observations) {
     const Frame& in_map = map.Find(id)->frame;
     const auto it = poses.find(id);
-    Frame frame;  // holds the features, which are shared, and the new pose; matches are not needed
+    Frame frame;  // has the features, which are shared, and the new pose; matches are not needed
     frame.indexed = in_map.indexed;
     frame.cam_from_world = it != poses.end() ? it->second : in_map.cam_from_world;
     const auto i = static_cast<std::size_t>(feature);

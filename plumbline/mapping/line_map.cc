@@ -18,9 +18,8 @@
 namespace plumbline {
 namespace {
 
-// Points of a line count as shown where at least this share of the supporting keyframes that have
-// them in their image show them. Where fewer do, the line was prolonged over something that happens
-// to lie in line with it.
+// Least share of the supporting keyframes with a point of a line in their image that must show it.
+// With a smaller share, the line was prolonged over another structure that happens to be collinear.
 constexpr double kMinShownShare = 0.4;
 
 struct SupportedLine {
@@ -29,8 +28,8 @@ struct SupportedLine {
   std::vector<LineInterval> parts;  // the parts of the line that enough keyframes show
 };
 
-// Finds the supports of a hypothesis and the line through them, three times in turn. Ends sooner
-// where the supports stay the same, as further rounds would change nothing. Returns nullopt where
+// Finds the supports of a hypothesis and the line through them, three times in turn. Ends earlier
+// if the supports stay the same, since further rounds would change nothing. Returns nullopt if
 // there are too few supports.
 std::optional<SupportedLine> Support(const LineSupportSearch& search,
                                      const RectifiedCamera& camera,
@@ -63,8 +62,8 @@ double DistanceFromNearest(std::span<const LineSupport> supports, const Eigen::V
   return nearest;
 }
 
-// Finds the longest stretch of an interval whose points are known well enough, in steps of a
-// twentieth of its length; nullopt where there is none.
+// Finds the longest part of an interval whose points have a small enough uncertainty, in steps of a
+// twentieth of its length; nullopt if there is none.
 std::optional<LineInterval> KnownPart(const SupportedLine& line,
                                       const LineInterval& part,
                                       double max_relative_sigma) {
@@ -98,7 +97,7 @@ double MiddleDistance(const Frame& frame, const Segment3& segment) {
 }
 
 // Returns the squared distances of a support's ends from the line, over their variances; infinity
-// where the line has no image.
+// if the line has no projection.
 double Chi2(const RectifiedCamera& camera,
             const OrthonormalLine& line,
             const LineSupport& support) {

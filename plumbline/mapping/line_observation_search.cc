@@ -24,8 +24,8 @@ namespace {
 constexpr double kPoseUncertaintyPx = 0.3;
 constexpr double kMinOverlap = 0.25;
 
-// Whether both ends of a measured segment are near the projected line: 99 % of chi2 with two
-// degrees of freedom.
+// Returns true if both ends of a measured segment are near the projected line: 99 % of chi2 with
+// two degrees of freedom.
 bool Agrees(const RectifiedCamera& camera,
             const Rigid3& cam_from_world,
             const UncertainLine& line,
@@ -38,7 +38,7 @@ bool Agrees(const RectifiedCamera& camera,
   return distances && distances->squaredNorm() <= kChi2TwoDof99;
 }
 
-// Returns the interval of a line that a segment shows; nullopt where the segment runs against the
+// Returns the interval of a line shown by a segment; nullopt if the segment runs against the
 // direction of the line.
 std::optional<LineInterval> Trimmed(const RectifiedCamera& camera,
                                     const PluckerLine& line,
@@ -52,8 +52,8 @@ std::optional<LineInterval> Trimmed(const RectifiedCamera& camera,
 
 constexpr double kLoosePx = 10;
 
-// A quick test before the exact one: whether a segment is near the projected line and nearly
-// parallel to it.
+// A quick test before the exact one: a segment must be near the projected line and nearly parallel
+// to it.
 class LooseTest {
  public:
   explicit LooseTest(const Segment2& projected)
@@ -75,7 +75,7 @@ class LooseTest {
 
 // Returns the box in which segments are searched before they are tested: the image of the line,
 // with a margin. A segment that overlaps the line has a point no further from it than MayShow
-// allows; one pixel more allows for rounding. The box is the whole image where the line passes the
+// allows; one pixel more allows for rounding. The box is the whole image if the line passes the
 // camera.
 Eigen::AlignedBox2d Surroundings(const RectifiedCamera& camera, const Segment3& in_camera) {
   constexpr double kNear = 1e-3, kMargin = kLoosePx + 1;

@@ -92,8 +92,7 @@ class WindowBuilder {
     for (const auto& other : others) fixed_.insert(other.id);
   }
 
-  // Adds the poses ordered by time, since FixInconsistentPoses looks at those that follow each
-  // other.
+  // Adds the poses ordered by time, since FixInconsistentPoses compares consecutive ones.
   void AddPoses() {
     const KeyFrameId origin = map_.keyframes().begin()->first;
     std::set<KeyFrameId> all = free_;
@@ -102,10 +101,10 @@ class WindowBuilder {
     HoldGauge();
   }
 
-  // Fixes the oldest poses if fewer are fixed than the gauge needs. One fixed pose is enough where
+  // Fixes the oldest poses if fewer are fixed than the gauge needs. One fixed pose is enough if
   // depth is measured; with a single camera two are needed, since one alone leaves the scale of the
-  // window open against the rest of the map. Where the window is the whole map, its scale is
-  // arbitrary and held by FixScaleToOldestKeyFrame.
+  // window relative to the rest of the map undetermined. If the window is the whole map, its scale
+  // is arbitrary and fixed by FixScaleToOldestKeyFrame.
   void HoldGauge() {
     auto& poses = window_.problem.poses;
     const bool depth = window_.problem.camera.baseline > 0;
@@ -126,9 +125,9 @@ class WindowBuilder {
     for (const auto& view : views) builder_.AddLineView(index, view, true);
   }
 
-  // Holds lines parallel to directions that come from the whole map and stay fixed. All lines that
-  // are parallel to a direction share its error, so that its variance counts once for each of them:
-  // together they must not claim to know the direction better.
+  // Constrains lines to be parallel to directions that come from the whole map and stay fixed. All
+  // lines parallel to a direction share its error, so that its variance counts once for each of
+  // them: together they must not make the direction more certain.
   void AddParallelLines() {
     BaProblem& problem = window_.problem;
     if (!options_.parallel_lines) return;
@@ -151,9 +150,9 @@ class WindowBuilder {
     }
   }
 
-  // Whether the images or the information fix a line: there is a wide angle between the
-  // interpretation planes of the first view and another (left images), or the information fixes
-  // both ends.
+  // Returns true if the images or the information determine a line: there is a large angle between
+  // the interpretation planes of the first view and another (left images), or the information
+  // determines both ends.
   bool WellConditioned(const MapLine& line) const {
     const double limit = math::Cos(options_.min_line_plane_angle_deg * std::numbers::pi / 180);
     std::optional<Eigen::Vector3d> first;

@@ -49,7 +49,7 @@ double MaxDifference(const RectifiedCamera& camera,
   return largest;
 }
 
-// Returns the keyframe with a number, searched from the newest on; nullptr where it was removed.
+// Returns the keyframe with a number, searched from the newest on; nullptr if it was removed.
 const KeyFrame* WithNumber(const Map& map, std::int64_t number) {
   const auto& keyframes = map.keyframes();
   auto keyframe = keyframes.rbegin();
@@ -229,7 +229,7 @@ void LocalMapper::CreateLandmarks(Map& map, KeyFrameId id) {
   create(CreateLinesFromViews(map, imaging_, id, lines_));
 }
 
-// Adds the landmarks that an edit creates to the young ones of the map, which are on trial.
+// Adds the landmarks that an edit creates to the recent ones of the map, which are on probation.
 void LocalMapper::AddToProbation(MapId map, const MapEdit& edit) {
   RecentLandmarks& young = young_[map];
   for (const MapChange& change : edit) {

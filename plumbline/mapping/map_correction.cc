@@ -19,8 +19,8 @@ bool SamePlace(const Rigid3& a, const Rigid3& b) {
   return a.rotation.coeffs() == b.rotation.coeffs() && a.translation == b.translation;
 }
 
-// Finds the place of the keyframe itself or of its nearest ancestor that the correction knows;
-// nullptr where it knows none.
+// Finds the pose of the keyframe itself or of its nearest ancestor in the correction; nullptr if it
+// has none.
 const MapCorrection::KeyFramePlace* PlaceFor(const MapCorrection& correction,
                                              const Map& today,
                                              KeyFrameId id) {

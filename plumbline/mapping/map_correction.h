@@ -21,12 +21,7 @@ namespace plumbline {
 struct MapCorrection {
   struct KeyFramePlace {
     Rigid3 before, after;  // cam_from_world
-    double scale = 1;      // scale around the keyframe, after / before
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.before, self.after, self.scale);
-    }
+    double scale = 1;      // lengths around the keyframe, after / before
   };
   struct PointPlace {
     Eigen::Vector3d before = Eigen::Vector3d::Zero();

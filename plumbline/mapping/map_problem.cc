@@ -27,8 +27,8 @@ void MapProblemBuilder::AddPose(KeyFrameId id, bool fixed) {
   out_.problem.poses.push_back({frame.cam_from_world * world_from_problem_, fixed, follows});
 }
 
-// Whether keyframe `id` comes soon after `before`. Keyframes between them may be missing from the
-// problem, because they share no landmark with it.
+// Returns true if keyframe `id` comes soon after `before`. Keyframes between them may be missing
+// from the problem, because they share no landmark with it.
 bool MapProblemBuilder::Follows(KeyFrameId before, KeyFrameId id) const {
   constexpr int kBetween = 4;
   auto place = map_.keyframes().find(id);

@@ -18,7 +18,7 @@ constexpr double kMaxChi2 = 16;
 // always, so that only a third one tells that they belong together.
 constexpr std::size_t kFewestViews = 3;
 
-// Holds landmarks against the keyframes that show them, at the poses of the map.
+// Compares landmarks with their observations, at the poses of the map.
 class OutlierSearch {
  public:
   OutlierSearch(const Map& map, const CameraAndPyramid& imaging, const LineWeights& weights)
@@ -42,10 +42,10 @@ class OutlierSearch {
   }
 
  private:
-  // Returns the landmark where most of its observations agree, with these alone: where it is, or
-  // fitted to all observations, and from there on fitted to those that agree. One wrong observation
-  // alone draws a line that is not well known far away, and where keyframes have moved nothing
-  // agrees with the old place, so that both are tried.
+  // Returns the landmark at which most of its observations agree, with these alone: unchanged, or
+  // fitted to all observations, and then fitted to those that agree. A single wrong observation
+  // moves a line that is uncertain far away, and after motions of keyframes nothing agrees with the
+  // old position, so that both are tried.
   template <class Landmark>
   Landmark BestPlace(const Landmark& landmark, const Observations& agreeing) const {
     constexpr int kRounds = 4;

@@ -33,8 +33,8 @@ constexpr double kMinCosine = 0.9;
 
 using Basis = Eigen::Matrix<double, 3, 2>;
 
-// The difference of a line's direction from an axis, in a basis across the axis; zero where the two
-// are too far apart to agree.
+// Difference of a line's direction from an axis, in a basis across the axis; zero if the two are
+// too far apart to agree.
 struct Deviation {
   Eigen::Vector2d angle = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
@@ -59,12 +59,12 @@ Deviation DeviationFrom(const Eigen::Vector3d& axis,
 
 using Lines = std::vector<const LineDirection*>;
 
-// Counts for each line how many lines are near it in direction, itself included, and keeps the
-// counts up to date while lines are taken away.
+// Counts for each line the lines near it in direction, itself included, and updates the counts as
+// lines are removed.
 //
 // The lines are sorted by the size of one component of their directions. Two directions that are
 // near each other, in either sense, differ in it by no more than the chord between them, so that
-// each line is compared with the lines of one stretch of that order only.
+// each line is compared only with those in an interval of that order.
 class Votes {
  public:
   explicit Votes(const std::vector<LineDirection>& lines)
@@ -215,7 +215,8 @@ std::vector<CommonDirection> CommonDirections(const std::vector<LineDirection>& 
 
 namespace {
 
-// Whether the item at `place` is chosen when at most `most` of `count` items, evenly spread, are.
+// Returns true if the item at `place` is chosen when at most `most` of `count` items, evenly
+// spread, are.
 bool Chosen(std::size_t place, std::size_t count, std::size_t most) {
   return place * most / count != (place + 1) * most / count;
 }

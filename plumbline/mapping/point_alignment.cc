@@ -32,9 +32,9 @@ const PyramidLevel& LevelOf(const ImagePyramid& pyramid, int level) {
       std::clamp(level, 0, static_cast<int>(pyramid.size()) - 1))];
 }
 
-// Writes the samples of a patch in steps of its octave, by bilinear interpolation; zeros where the
-// patch leaves the image. All samples lie at the same place between pixels, which takes a fraction
-// of the time of SamplePatch; a thousand corners of each keyframe need it.
+// Writes the samples of a patch in steps of its octave, by bilinear interpolation; zeros if the
+// patch leaves the image. All samples have the same sub-pixel position, which takes a fraction of
+// the time of SamplePatch; a thousand corners of each keyframe need it.
 void TakePatch(const PointFeature& feature, const ImagePyramid& pyramid, std::uint8_t* row) {
   const PyramidLevel& level = LevelOf(pyramid, feature.octave);
   const GrayImage& image = level.image;

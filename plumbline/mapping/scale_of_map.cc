@@ -13,7 +13,7 @@
 namespace plumbline {
 namespace {
 
-// Returns by which factor depths have changed, as the median over points; nullopt where there are
+// Returns the factor by which depths have changed, as the median over points; nullopt if there are
 // too few of them.
 std::optional<double> ScaleAround(const std::vector<std::pair<double, double>>& depths) {
   constexpr std::size_t kFew = 10;
@@ -25,7 +25,7 @@ std::optional<double> ScaleAround(const std::vector<std::pair<double, double>>& 
   return UpperMedian(ratios);
 }
 
-// Scales all lengths of a solution and leaves `centre` where it is.
+// Scales all lengths of a solution about the fixed point `centre`.
 void ScaleAbout(const Eigen::Vector3d& centre, double scale, BaResult& result) {
   for (Rigid3& pose : result.poses) {
     pose.translation = scale * pose.translation + (scale - 1) * (pose.rotation * centre);

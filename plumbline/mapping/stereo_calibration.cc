@@ -38,8 +38,8 @@ struct KeyFrameEvidence {
   Eigen::Matrix<double, 7, 7> information = Eigen::Matrix<double, 7, 7>::Zero();
   Eigen::Matrix<double, 7, 1> weighted = Eigen::Matrix<double, 7, 1>::Zero();
 
-  // Adds a displacement that was measured at a place with these terms. `surprise` is the part of it
-  // that the correction so far does not explain; where that is too large, the match is wrong.
+  // Adds a displacement measured at a pixel with these terms. `surprise` is its difference from the
+  // current correction; if that is too large, the match is wrong.
   void Add(const Vector6d& terms,
            double predicted,
            double displacement,
@@ -58,12 +58,11 @@ struct KeyFrameEvidence {
 using Vector5d = Eigen::Matrix<double, 5, 1>;
 using Matrix5d = Eigen::Matrix<double, 5, 5>;
 
-// Takes out of coefficients what their noise explains. A basis is used whose parts are independent,
-// both over the evidence and in their errors; each part is shrunk by 1 - variance / square, or to
-// zero.
+// Removes the noise from coefficients. In a basis whose parts are independent, both over the
+// evidence and in their errors, each part is shrunk by 1 - variance / square, or to zero.
 //   covariance    of the coefficients
-//   mean_squares  matrix that turns coefficients into the mean square of the correction over all
-//                 evidence
+//   mean_squares  matrix of the quadratic form from coefficients to the mean square of the
+//                 correction over all evidence
 Vector5d WithoutNoise(const Vector5d& coefficients,
                       const Matrix5d& covariance,
                       const Matrix5d& mean_squares) {

@@ -25,19 +25,6 @@ class StereoChange {
   // Number of keyframes prepared in one step, some microseconds each.
   static constexpr std::size_t kSlice = 256;
 
-  // The change in progress. An object with the same state and map completes the change at the same
-  // step.
-  struct State {
-    MapId map;
-    StereoCorrection correction;
-    KeyFrameId next{0};  // the keyframes before this one are ready
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.map, self.correction, self.next);
-    }
-  };
-
   bool Running(const Map& map) const { return state_ && state_->map == map.id(); }
   // Begins a change of this map and cancels one in progress.
   void Begin(const Map& map, const StereoCorrection& correction);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kClosest = 3;  // most keyframes with which lines are made, as in section 3.3
 
-// Holds the line features of a frame that show no landmark, with their indices in the frame.
+// Unmatched line features of a frame, with their indices in the frame.
 struct FreeLines {
   std::vector<LineFeature> features;
   std::vector<std::size_t> index;
@@ -57,8 +57,8 @@ MapEdit CreateLinesFromViews(const Map& map,
     std::optional<MapLine> line;
     const auto reconstruct = lines.method.line_from_views;
     if (views.size() > 2) line = reconstruct(map, imaging.camera, views);
-    // Where three views disagree, pairs are tried: one wrong match spoils all three, but not the
-    // pair without it.
+    // If three views disagree, pairs are tried: one wrong match spoils all three, but not the pair
+    // without it.
     for (std::size_t k = 1; !line && k < views.size(); ++k) {
       line = reconstruct(map, imaging.camera, {views.front(), views[k]});
     }

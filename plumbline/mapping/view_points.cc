@@ -20,7 +20,7 @@ namespace plumbline {
 namespace {
 
 // The search along the epipolar line covers depths between these two factors times the median
-// depth, in both views. Factors have no unit, because a single camera knows none.
+// depth, in both views. Factors are dimensionless, because a single camera has no metric scale.
 constexpr double kNearestDepth = 0.05;
 constexpr double kFarthestDepth = 1e4;
 constexpr double kEpipolarChi2 = 3.84;  // 95 %, one degree of freedom
@@ -172,8 +172,8 @@ class PairSearch {
   FreePoints free_in_b_;
 };
 
-// Returns the median depth of the points that a keyframe shows; nullopt where it shows none, or
-// where most of them lie behind it.
+// Returns the median depth of the points of a keyframe; nullopt if it has none, or if most of them
+// lie behind it.
 std::optional<double> MedianDepth(const Map& map, const Frame& frame) {
   std::vector<double> depths;
   for (const PointId id : frame.points) {

@@ -19,8 +19,8 @@
 namespace plumbline {
 namespace {
 
-// Limits for the lines that take part. They are looser than those for lines that are given out to
-// users, since an adjustment gains from more lines, and what does not fit has little weight in it.
+// Limits for lines in the adjustment. They are looser than those of the line map for users, since
+// an adjustment gains from more lines, and outliers have little weight in it.
 constexpr LineMapOptions kAdjustedLines{.min_keyframes = 4,
                                         .max_relative_sigma = 0.02,
                                         .min_found_ratio = 0.25,
@@ -52,8 +52,8 @@ MapProblem MakeWholeMap(const Map& map,
   return whole;
 }
 
-// Whether solving the problem would take longer than solving one of `limit` keyframes that all
-// share landmarks. Only a problem of more keyframes can.
+// Returns true if solving the problem would take longer than solving one of `limit` keyframes that
+// all share landmarks. Only a problem of more keyframes can.
 bool TakesTooLong(const MapProblem& whole, int limit, const StopCheck& stop) {
   return FullSize(PlanElimination(SharingPoses(whole.problem, stop), stop)) > limit;
 }
@@ -76,7 +76,7 @@ std::optional<BaResult> SolveForLens(const RadialCalibration& lens,
   ba.rounds = 1;
   ba.max_iterations = 40;
   ba.function_tolerance = 1e-6;
-  const BaProblem start = problem;  // in which no pose is held yet, so that all are scaled
+  const BaProblem start = problem;  // without fixed poses, so that all are scaled
   return SolveWithPoseLimits(
       problem,
       ba,
@@ -86,8 +86,8 @@ std::optional<BaResult> SolveForLens(const RadialCalibration& lens,
       stop);
 }
 
-// Returns the places that an adjustment found, and the lens correction of the features together
-// with what was learned beside it.
+// Returns the poses and points of an adjustment, and the lens correction of the features combined
+// with the newly learned one.
 MapCorrection CorrectionOf(const Map& map,
                            const MapProblem& whole,
                            const LensCorrection& learned,
@@ -152,7 +152,7 @@ MapCorrection AdjustWholeMap(const Map& map,
   const std::size_t count = map.keyframes().size();
   if (count < kMinKeyFrames || limit == 0 || IsToStop(stop)) return {};
   const bool large = count > static_cast<std::size_t>(limit);
-  // The search for lines is spared where the points alone show that the map takes too long.
+  // The search for lines is skipped if the points alone show that the map takes too long.
   const auto without_lines = [&] { return MakeWholeMap(map, imaging, lines.weights(), {}, stop); };
   if (large && TakesTooLong(without_lines(), limit, stop)) return {};
   const std::vector<WellSeenLine> well_seen = FindWellSeenLines(map, imaging, kAdjustedLines, stop);
@@ -175,8 +175,8 @@ MapCorrection AdjustWholeMap(const Map& map,
     FixScaleToOldestKeyFrame(whole.problem, *moved);
     TakePosesAndPoints(*moved, problem);
   }
-  // FixScaleToOldestKeyFrame gets `whole.problem`, in which the poses that SolveWithPoseLimits
-  // holds are free, so that it scales all poses.
+  // FixScaleToOldestKeyFrame gets `whole.problem`, in which the poses fixed by SolveWithPoseLimits
+  // are free, so that it scales all poses.
   const std::optional<BaResult> result = SolveWithPoseLimits(
       problem,
       options.ba,

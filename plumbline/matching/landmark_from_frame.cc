@@ -59,9 +59,9 @@ Disparity Average(const Disparity& a, const Disparity& b) {
   return {(wa * a.px + wb * b.px) / (wa + wb), 1 / std::sqrt(wa + wb)};
 }
 
-// Returns what a known distance from the camera says about a line. The place at parameter t is
-// known along the ray with a deviation relative to its distance; only the part of the ray across
-// the line counts.
+// Returns the information of a known distance from the camera about a line. The point at parameter
+// t is known along the ray with a deviation relative to its distance; only the part of the ray
+// across the line counts.
 Eigen::Matrix4d DepthInformation(const PluckerLine& line,
                                  double t,
                                  const Eigen::Vector3d& camera_centre,

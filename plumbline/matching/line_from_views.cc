@@ -33,7 +33,7 @@ std::vector<LineView> ImageViews(const Map& map,
   return images;
 }
 
-// Whether the ends of the segment that shows a line are within a pixel of its image.
+// Returns true if the ends of a line's segment are within a pixel of the projected line.
 bool IsWithinAPixel(const RectifiedCamera& camera,
                     const Frame& frame,
                     std::size_t feature,
@@ -46,7 +46,7 @@ bool IsWithinAPixel(const RectifiedCamera& camera,
   return residual && residual->r.cwiseAbs().maxCoeff() < kFarthestPx;
 }
 
-// Whether a point of the world would be made of two views, as ORB-SLAM decides.
+// Returns true if ORB-SLAM would triangulate a point of the world from two views.
 bool PassesAsPoint(const Frame& a, const Frame& b, const Eigen::Vector3d& point) {
   constexpr double kLargestCosine = 0.9998;
   const Eigen::Vector3d ray_a = point - Inverse(a.cam_from_world).translation;

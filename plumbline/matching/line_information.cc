@@ -39,7 +39,7 @@ Eigen::Matrix<double, 3, 4> ShiftJacobian(const PluckerLine& line,
                                           const OrthonormalLine& orthonormal,
                                           double t) {
   // The moment about a point P of the line is m - P x d = 0. A shift x of the line across itself
-  // makes it x X d, so that x = d X (dm - P X dd), per unit of direction.
+  // makes it x X d, so that x = d X (dm - P X dd), with (m, d) scaled to |d| = 1.
   const Eigen::Matrix<double, 6, 4> J = HomogeneousJacobian(orthonormal);
   const Eigen::Matrix<double, 3, 4> moment_about_p =
       (J.topRows<3>() - Skew(line.PointAt(t)) * J.bottomRows<3>()) / orthonormal.w.y();

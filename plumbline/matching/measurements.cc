@@ -26,7 +26,7 @@ Eigen::Matrix2d SpreadOf(const Eigen::Matrix<double, 2, 4>& J,
 }
 
 // Returns J Lambda^-1 J^T, computed as a square so that rounding errors leave it positive, and
-// bounded to what still tells anything.
+// bounded to meaningful values.
 Eigen::Matrix2d BoundedSpreadOf(const Eigen::Matrix<double, 2, 4>& J,
                                 const Eigen::LLT<Eigen::Matrix4d>& information) {
   constexpr double kMaxSpread = 1e8;  // square pixels: wider than any image

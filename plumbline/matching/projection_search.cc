@@ -11,11 +11,11 @@
 namespace plumbline {
 namespace {
 
-// Keeps the division by depth finite and has no other meaning: a single camera's map has no unit.
+// Keeps the division by depth finite and has no other meaning: a single camera's map has arbitrary
+// scale.
 constexpr double kNearPlane = 1e-3;
 constexpr double kDisparityGateSigmas = 4;
-// A landmark that is seen from a side that differs by more does not look like its descriptor any
-// more.
+// Beyond this difference of viewing directions a landmark no longer matches its descriptor.
 constexpr double kMaxViewAngleDeg = 60;
 // Shorter visible pieces of a line are not found for certain.
 constexpr double kMinVisibleLengthPx = 20;

@@ -14,8 +14,8 @@ namespace plumbline {
 
 namespace {
 
-// The problem with rotations of norm 1, where some are off by more than rounding; nullopt: none is.
-// Throws InputError for one that is none.
+// The problem with normalized rotations, if some are off by more than rounding; nullopt: none is.
+// Throws InputError for an invalid rotation.
 std::optional<BaProblem> Normalized(const BaProblem& problem) {
   std::optional<BaProblem> normalized;
   for (std::size_t i = 0; i < problem.poses.size(); ++i) {

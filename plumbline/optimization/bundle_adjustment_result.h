@@ -42,16 +42,7 @@ void VisitFields(Visitor&& visit, LocalBaOptions& o) {
   visit("robust", o.robust, "use the Huber loss");
 }
 
-constexpr auto FixedOptions(std::type_identity<LocalBaOptions>) {
-  return std::array{FixedOption{"robust_last_round", "true"},
-                    FixedOption{"huber_point", "2.4477"},
-                    FixedOption{"huber_disparity", "2.7955"},
-                    FixedOption{"huber_line", "2.4477"},
-                    FixedOption{"gate_scale", "1"},
-                    FixedOption{"initial_lambda", "1e-04"}};
-}
-
-// Reason for the end of the last round.
+// Why the last round ended.
 enum class BaTermination {
   kConverged,      // the cost no longer falls
   kMaxIterations,  // the budget of the last round is used up

@@ -21,8 +21,8 @@ namespace {
 // diagonal, ascending.
 using Columns = std::vector<std::vector<int>>;
 
-// Returns how many multiplications of blocks it takes to eliminate `pivots` rows that change
-// `below` others.
+// Returns the number of multiplications of blocks to eliminate `pivots` rows that update `below`
+// others.
 double Multiplications(double pivots, double below) {
   const auto full = [](double rows) { return (rows - 1) * rows * (rows + 1) / 6; };
   return full(pivots + below) - full(below);
@@ -81,8 +81,8 @@ Columns Fill(const BlockPattern& pattern, const std::vector<int>& order, const S
 }
 
 // Groups columns that are eliminated together. Each group stands at its last column; the others'
-// entries are empty. A column joins that of its first row below the diagonal where one larger front
-// is less work than two, although some of its entries are then zero.
+// entries are empty. A column joins that of its first row below the diagonal if one larger front is
+// less work than two, although some of its entries are then zero.
 std::vector<std::vector<int>> MergeColumns(const Columns& columns) {
   const auto below = [&](int column) { return static_cast<double>(columns[Index(column)].size()); };
   std::vector<std::vector<int>> merged(columns.size()), children(columns.size());

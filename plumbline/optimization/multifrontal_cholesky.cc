@@ -15,7 +15,7 @@
 namespace plumbline {
 namespace {
 
-// Returns how many rows of scalars a number of blocks has.
+// Returns the number of scalar rows of a number of blocks.
 template <int kSize>
 Eigen::Index Scalars(int blocks) {
   return kSize * static_cast<Eigen::Index>(blocks);
@@ -28,14 +28,14 @@ std::span<const int> Changed(const Front& front) {
 
 int CountChanged(const Front& front) { return static_cast<int>(front.rows.size()) - front.pivots; }
 
-// Returns where the run of consecutive places ends that begins at `place[first]`.
+// Returns the end of the run of consecutive places that begins at `place[first]`.
 int EndOfRun(const std::vector<int>& place, int first, int end) {
   int last = first + 1;
   while (last < end && place[Index(last)] == place[Index(last - 1)] + 1) ++last;
   return last;
 }
 
-// Eliminates the pivots. `columns` become those of L, `change` becomes what they add to the other
+// Eliminates the pivots. `columns` become those of L, `change` becomes the update of the other
 // rows.
 bool Eliminate(Eigen::MatrixXd& columns, Eigen::MatrixXd& change) {
   const Eigen::Index pivots = columns.cols();

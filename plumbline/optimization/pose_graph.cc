@@ -16,7 +16,7 @@ namespace plumbline {
 namespace {
 
 constexpr int kMaxSteps = 20;  // Gauss-Newton steps in all
-// The solution ends when no component of a step is larger: radians, map units, log scale.
+// The iteration ends if no component of a step is larger: radians, map scale, log scale.
 constexpr double kStepTolerance = 1e-6;
 // An edge that may be wrong is right when its squared Mahalanobis norm is below this.
 constexpr double kRightChi2 = 24.3;
@@ -37,8 +37,8 @@ Matrix7d InverseLeftJacobian(const Vector7d& x) {
   return Matrix7d::Identity() - ad / 2 + squared / 12 - squared * squared / 720;
 }
 
-// Damping of the system, which holds poses that are tied to nothing. It is far below what any edge
-// says.
+// Damping of the system, which fixes poses without edges. It is far below the information of any
+// edge.
 constexpr double kDamping = 1e-9;
 
 // A Gauss-Newton problem over the free poses, with kSize degrees of freedom for each.
@@ -51,7 +51,7 @@ class System {
   explicit System(const PoseGraph& graph)
       : graph_(graph), row_of_(Rows(graph)), cholesky_(PlanElimination(Pattern())) {}
 
-  // Adds the step to the poses and returns its largest component; nullopt where the system is
+  // Adds the step to the poses and returns its largest component; nullopt if the system is
   // singular.
   std::optional<double> Step(const std::vector<double>& weights, std::vector<Similarity3>& poses) {
     Clear();
@@ -104,8 +104,8 @@ class System {
     return pattern;
   }
 
-  // Returns row and column of the block that couples the poses of an edge. The column is -1 where
-  // one of the poses is fixed.
+  // Returns row and column of the block that couples the poses of an edge. The column is -1 if one
+  // of the poses is fixed.
   std::pair<int, int> Place(const PoseGraphEdge& edge) const {
     const int a = row_of_[Index(edge.to)];
     const int b = row_of_[Index(edge.from)];
@@ -167,7 +167,7 @@ class System {
   // Row and column of each block left of the diagonal.
   std::vector<std::pair<int, int>> places_;
   std::vector<Block> off_diagonal_;  // the block at each of places_
-  // Index in places_ for each edge; of no meaning where one pose is fixed.
+  // Index in places_ for each edge; undefined if one pose is fixed.
   std::vector<std::size_t> place_of_;
   Eigen::VectorXd gradient_;
   BlockCholesky<kSize> cholesky_;

@@ -21,7 +21,7 @@ struct PosePoint {
   std::optional<Eigen::Matrix3d> whitening;  // for the residuals of an UncertainPointTerm
 };
 
-// Interface of a match of a line for PoseSolver.
+// A match of a line, with the functions that PoseSolver needs.
 class PoseLine {
  public:
   // The linearized residual in the camera of the measurement.

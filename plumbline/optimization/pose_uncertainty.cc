@@ -151,11 +151,11 @@ bool Failed(const BaResult& result) {
 
 struct Solution {
   BaResult result;
-  std::vector<PoseUncertainty> sigmas;  // deviations of `result`; empty where the solution failed
+  std::vector<PoseUncertainty> sigmas;  // uncertainties of `result`; empty if the solution failed
 };
 
-// Solves with loose poses held. These are the poses that are loose before the solution, or become
-// so by the observations that it rejects; they are marked as fixed in the problem.
+// Solves with unconstrained poses fixed: those unconstrained before the solution, or by the
+// observations that it rejects; they are marked as fixed in the problem.
 Solution SolveHoldingLoosePoses(BaProblem& problem,
                                 const LocalBaOptions& options,
                                 BaSolver solver,

@@ -19,7 +19,7 @@ std::optional<UncertainPointTerm> MakeUncertainPointTerm(const RectifiedCamera& 
   PointLinearization lin;
   if (!LinearizePoint(camera, out.term, cam_from_world * point_in_world, lin)) return std::nullopt;
   const Eigen::Matrix3d J = PointJacobian(lin) * cam_from_world.rotation.toRotationMatrix();
-  // The row of the disparity is zero where there is none.
+  // The row of the disparity is zero without disparity.
   Eigen::Matrix3d S = J * point_covariance * J.transpose();
   S.diagonal().head<2>().array() += measurement.sigma_px * measurement.sigma_px;
   S(2, 2) += with_disparity ? measurement.disparity->sigma_px * measurement.disparity->sigma_px : 1;

@@ -14,8 +14,8 @@
 namespace plumbline {
 namespace {
 
-// What a vote is worth by the number of bits that differ, in parts of kOne: a parabola that reaches
-// 0 one bit beyond the reach.
+// Weight of a vote by the number of differing bits, in parts of kOne: a parabola that reaches 0 one
+// bit beyond the reach.
 constexpr std::uint64_t kOne = 256;
 using NearnessTable = std::array<std::uint64_t, kSignatureBits + 1>;
 
@@ -85,15 +85,15 @@ class Poll {
   std::uint64_t all_ = 0;              // the votes that a keyframe can get at most
 };
 
-// Decides which keyframes may get votes, by slot. A keyframe is asked about when a feature of it is
-// first found near.
+// Selects the keyframes that may get votes, by slot. `allowed` is called for a keyframe when the
+// first feature of it is found near.
 class Electorate {
  public:
   Electorate(const std::vector<KeyFrameId>& by_slot, const std::function<bool(KeyFrameId)>& allowed)
       : by_slot_(by_slot), allowed_(allowed), known_(by_slot.size(), Known::kNothing) {}
 
-  // Returns the features of a leaf that may be of an allowed keyframe. Most of what looks alike is
-  // of the keyframes around the camera, which are not allowed.
+  // Returns the features of a leaf that may be of an allowed keyframe. Most similar features are of
+  // the keyframes around the camera, which are not allowed.
   void Choose(std::span<const FeatureName> leaf, std::vector<FeatureName>* names) const {
     names->resize(leaf.size());
     std::size_t count = 0;

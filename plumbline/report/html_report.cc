@@ -43,8 +43,8 @@ std::string FormatHtmlReport(const System& system,
                              const Dataset& dataset,
                              const ReportContext& context) {
   std::string page(ReportPage());
-  // The order matters, since either text may hold a mark: the mark of the title stands before the
-  // data.
+  // The order matters, since either text may contain a mark: the mark of the title stands before
+  // the data.
   Fill(page, "{{DATA}}", EscapeScriptJson(FormatReportData(system, dataset, context)));
   Fill(page, "{{TITLE}}", EscapeHtml(dataset.info().name));
   return page;

@@ -174,7 +174,7 @@ Json Statistics(const std::optional<ErrorStatistics>& s, double factor) {
           {"count", s->count}};
 }
 
-// Returns the row of a frame; null where it is not shown.
+// Returns the row of a frame; null if it is not shown.
 Json Row(const ShownFrames& shown, std::size_t frame) {
   const std::optional<std::size_t> row = shown.RowOf(frame);
   return row ? Json(*row) : Json(nullptr);
@@ -215,7 +215,8 @@ Json Error(const MapScene& map, SensorKind sensor, const ShownFrames& shown) {
           {"relative_rotation", std::move(roe)}};
 }
 
-// Whether lengths are metres: one camera measures none, unless ground truth scales its map.
+// Returns true if lengths are metres: a single camera measures none, unless ground truth scales its
+// map.
 bool IsMetric(const MapScene& map, SensorKind sensor) {
   if (sensor != SensorKind::kMono) return true;
   return map.error && map.error->degenerate.value_or(AlignmentFailure::kCollinear) ==

@@ -51,7 +51,7 @@ bool IsFolder(const fs::path& path) {
   return fs::is_directory(fs::symlink_status(path, error));
 }
 
-// Whether a file was left by a run that was killed while it wrote (AtomicFile).
+// Returns true for a temporary file left by a run that was killed while it wrote (AtomicFile).
 bool IsTemporary(const std::string& name) {
   static const std::regex temporary(R"(\.(.+)\.[0-9]+\.tmp(\.[a-z]+)?)");
   std::smatch parts;
@@ -60,7 +60,7 @@ bool IsTemporary(const std::string& name) {
   return written == RunManifest::kFile || IsRunFile(written);
 }
 
-// Removes only what a run makes. Everything else stays, and then the folder does, too.
+// Removes only files of a run. Everything else stays, and then the folder does, too.
 void RemovePart(const fs::path& part) {
   std::error_code error;
   std::vector<fs::path> ours;
@@ -73,7 +73,7 @@ void RemovePart(const fs::path& part) {
   fs::remove(part, error);
 }
 
-// Whether a file of the journal has no rows; FormatFrames has a header.
+// Returns true if a file of the journal has no rows; FormatFrames has a header.
 bool HasNoRows(const fs::path& file) {
   std::ifstream stream(file);
   std::string header, row;
@@ -81,8 +81,8 @@ bool HasNoRows(const fs::path& file) {
   return !std::getline(stream, row);
 }
 
-// Whether a run ended before it wrote anything of a frame: all that is left are its options, and
-// files of the journal without rows.
+// Returns true if a run ended before its first frame: all that is left are its options, and files
+// of the journal without rows.
 bool HoldsNoFrames(const fs::path& part) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(part, error)) {
@@ -96,7 +96,7 @@ bool HoldsNoFrames(const fs::path& part) {
   return !error;
 }
 
-// Whether a file may be replaced because a run wrote it.
+// Returns true if a file may be replaced because a run wrote it.
 bool IsOurs(const RunManifest& manifest, const fs::path& folder, const std::string& name) {
   return manifest.Lists(name) && !IsFolder(folder / name);
 }
@@ -111,7 +111,7 @@ std::optional<std::string> Foreign(const fs::path& folder,
   return found == names.end() ? std::nullopt : std::optional(*found);
 }
 
-// Begins the exchange, or continues it where it was left: the program may be killed after any step.
+// Begins the exchange, or continues an interrupted one: the program may be killed after any step.
 // The files of a complete part replace those of the folder; then the other files of the earlier run
 // are removed.
 void MoveIntoPlace(const fs::path& part, const fs::path& folder) {
@@ -195,7 +195,7 @@ RunFolder::~RunFolder() {
   if (keep_) return;
   try {
     RemoveFolders();
-  } catch (const std::exception&) {  // what cannot be removed stays
+  } catch (const std::exception&) {  // files that cannot be removed stay
   }
 }
 

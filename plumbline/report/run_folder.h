@@ -22,7 +22,13 @@ struct RunFile {
   std::function<void(const std::filesystem::path&)> write;
 };
 
-// A file or folder read by a run.
+// What an earlier run left in its folder.
+struct EarlierRun {
+  std::size_t poses = 0;  // rows of trajectory.txt
+  std::string data;       // "data" of summary.json; empty where that cannot be read
+};
+
+// A file or folder that a run reads.
 struct RunInput {
   std::filesystem::path path;
   // True if it is read completely before anything is replaced.
@@ -89,8 +95,8 @@ class RunFolder {
   // Returns true if Commit() would replace complete results by incomplete ones.
   bool WouldLose() const;
 
-  // Returns true if DIR has poses of an earlier run.
-  bool HoldsPoses() const;
+  // The earlier run whose results DIR has; nullopt where it has none with poses.
+  std::optional<EarlierRun> Earlier() const;
 
   // Moves the files of the part into DIR, removes those of the earlier run, then the part. Throws
   // InputError if that is impossible, for instance because a file with the name of a result

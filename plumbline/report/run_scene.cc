@@ -36,8 +36,8 @@ void TakePoses(const System& system,
   }
 }
 
-// Returns how a map is shown. One that cannot be compared with ground truth is shown in its own
-// world.
+// Returns the pose of a map in the displayed world. A map without comparison to ground truth is
+// shown in its own world.
 Similarity3 WorldFromMap(const MapScene& scene) {
   return scene.error ? scene.error->reference_from_estimate : Similarity3();
 }

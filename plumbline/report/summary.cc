@@ -69,8 +69,8 @@ Json Timing(const FrameLog& frames) {
   return json;
 }
 
-// Returns the largest memory that this program had. ru_maxrss also counts what the process had
-// before it became this program, which is the memory of the program that started it.
+// Returns the peak memory of this program. ru_maxrss also counts memory from before exec, which is
+// that of the program that started it.
 double PeakMemoryMb() {
   std::ifstream status("/proc/self/status");
   std::string word;
@@ -99,8 +99,8 @@ std::optional<double> SecondsSinceProcessStart() {
   std::ifstream stat("/proc/self/stat");
   std::string text;
   if (!std::getline(stat, text)) return std::nullopt;
-  // The name, field 2, is in brackets and may hold spaces. The start, in ticks since boot, is field
-  // 22.
+  // The name, field 2, is in brackets and may contain spaces. The start, in ticks since boot, is
+  // field 22.
   const auto bracket = text.rfind(')');
   if (bracket == std::string::npos) return std::nullopt;
   std::istringstream rest(text.substr(bracket + 1));
@@ -213,8 +213,8 @@ void AddEvents(const MapEvents& events, Json& json) {
   }
 }
 
-// Adds how often each stage ran: the frames or keyframes with a time of it, and the steps of starts
-// and of line cutting.
+// Adds the number of runs of each stage: the frames or keyframes with a time for it, and the steps
+// of initializations and of line cutting.
 void AddStages(const System& system, Json& json) {
   std::map<std::string, std::int64_t> stages;
   for (std::size_t i = 0; i < system.frames().size(); ++i) {

@@ -33,9 +33,9 @@ Matrix3d AxesOf(const Three& corners) {
   return axes;
 }
 
-// Returns the poses that show three points in three directions of unit length, at most four
-// (Grunert 1841, in the form of Haralick et al., IJCV 1994). With the distances s and its multiples
-// u s and v s, the law of cosines for the three sides leaves a polynomial of degree four in v.
+// Returns the poses that project three points to three unit directions, at most four (Grunert 1841,
+// in the form of Haralick et al., IJCV 1994). With the distances s and its multiples u s and v s,
+// the law of cosines for the three sides leaves a polynomial of degree four in v.
 std::vector<Rigid3> PosesOfThree(const Three& world, const Three& rays) {
   const double a2 = (world[1] - world[2]).squaredNorm();
   const double b2 = (world[0] - world[2]).squaredNorm();

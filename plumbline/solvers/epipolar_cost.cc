@@ -14,7 +14,7 @@ double SampsonChi2(const Eigen::Matrix3d& essential, const RayMatch& match) {
   const double error = match.b.homogeneous().dot(in_b);
   const double variance = match.sigma_b * match.sigma_b * in_b.head<2>().squaredNorm() +
                           match.sigma_a * match.sigma_a * in_a.head<2>().squaredNorm();
-  return variance > 0 ? error * error / variance : 0;  // 0 where both points are epipoles
+  return variance > 0 ? error * error / variance : 0;  // 0 if both points are epipoles
 }
 
 EpipolarCost::EpipolarCost(std::span<const RayMatch> matches) {

@@ -44,7 +44,7 @@ struct Polynomial {
   }
 };
 
-// Returns the one root between low and high, where the polynomial has opposite signs.
+// Returns the only root between low and high, where the polynomial has opposite signs.
 double RootBetween(const Polynomial& p, double low, double high, double at_low) {
   double x = 0.5 * (low + high);
   for (int i = 0; i < 100; ++i) {

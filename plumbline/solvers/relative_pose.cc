@@ -141,7 +141,7 @@ void AddEssentials(std::span<const RayMatch> matches,
   for (const auto& scored :
        Ransac<Problem>(problem, options.max_iterations, kRivalCost).Run(models, rng)) {
     // Refinement keeps the rotation, and the epipolar distance is the same for both rotations. Only
-    // the one with points in front is worth refining.
+    // the rotation with points in front is worth refining.
     const auto poses = RotationsOf(scored.model);
     const auto most_in_front = [&](const Rigid3& pose) {
       const std::vector<bool> all(matches.size(), true);
@@ -156,7 +156,7 @@ void AddEssentials(std::span<const RayMatch> matches,
   }
 }
 
-// Adds both motions of the plane that holds most matches, if it holds enough of them.
+// Adds both motions of the plane with most matches, if it has enough of them.
 void AddHomographies(std::span<const RayMatch> matches,
                      const RelativePoseOptions& options,
                      Rng& rng,

@@ -38,7 +38,7 @@ ShownKeyFrame ShownOf(const KeyFrame& keyframe, const ShownSession& session) {
       {p[0], p[1], p[2], q[0], q[1], q[2], q[3]}};
 }
 
-// Whether somebody who looks from near `eye` would see the difference.
+// Returns true if a viewer near `eye` would see the difference.
 template <std::size_t kSize>
 bool HasMoved(const std::array<float, kSize>& before,
               const std::array<float, kSize>& now,
@@ -64,7 +64,7 @@ bool HasMoved(const ShownKeyFrame& before, const ShownKeyFrame& now, const Shown
   return before != now;
 }
 
-// Compares a page of a table with what was shown of it, `shown`, and updates `shown`. Both are in
+// Compares a page of a table with its displayed content, `shown`, and updates `shown`. Both are in
 // the order of ids.
 template <class Table, class T>
 void ComparePage(const Table& table,

@@ -136,7 +136,7 @@ ViewedMap::Tiles ViewedMap::TilesSince(std::uint64_t from) const {
 }
 
 ViewedMap::TileKey ViewedMap::KeyOf(const ShownLine& line) const {
-  constexpr float kFarthest = 1e6F;  // in tiles; also used where a coordinate is no number
+  constexpr float kFarthest = 1e6F;  // in tiles; also used for coordinates that are NaN
   TileKey key{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const float middle = 0.5F * (line.ends[axis] + line.ends[axis + 3]) / tile_size_;

@@ -21,7 +21,7 @@ constexpr std::size_t kMostQuestions = 64;
 constexpr auto kLastWait = std::chrono::seconds(1);
 constexpr auto kAskAgain = std::chrono::milliseconds(10);
 
-// Lowers the priority of the calling thread, so that the run goes first where the machine is busy.
+// Lowers the priority of the calling thread, so that the run goes first on a busy machine.
 void LowerPriority() {
   constexpr int kLow = 10;
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLow);
@@ -136,8 +136,8 @@ std::optional<WebFile> Viewer::Get(std::string_view path) const {
   return WebFile{"application/x-protobuf", std::move(picture)};
 }
 
-// Notes whether viewers or the recording want frames and the map. A pause ends when no viewer is
-// left, since only viewers can hold a run back.
+// Records whether viewers or the recording want frames and the map. A pause ends when no viewer is
+// left, since only viewers can pause a run.
 void Viewer::NoteWishes() {
   frames_wanted_ = recorder_ != nullptr || clients_.frames_wanted();
   map_wanted_ = recorder_ != nullptr || clients_.map_wanted();

@@ -36,7 +36,8 @@ std::string_view WithoutPort(std::string_view host) {
   return host.substr(0, host.find(':'));
 }
 
-// Whether the host is an address: four numbers, or a text with colons, which names do not have.
+// Returns true if the host is an address: four numbers, or a text with colons, which names do not
+// have.
 bool IsAddress(std::string_view host) {
   if (host.find(':') != std::string_view::npos) {
     return std::all_of(host.begin(), host.end(), [](char c) {

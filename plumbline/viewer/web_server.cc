@@ -44,7 +44,7 @@ using Request = http::request<http::empty_body>;
 
 std::string_view View(boost::string_view text) { return {text.data(), text.size()}; }
 
-// Returns the first of our subprotocols that the client offers; an empty text where it offers none.
+// Returns the first of our subprotocols that the client offers; empty if it offers none.
 std::string_view ChooseSubprotocol(std::string_view offered) {
   for (const std::string_view known : kFoxgloveSubprotocols) {
     std::string_view rest = offered;
@@ -148,7 +148,7 @@ class WebSocketSession : public WebClient, public std::enable_shared_from_this<W
   }
   std::size_t waiting() const override { return queue_.size(); }
 
-  // Says good-bye where the client listens.
+  // Says good-bye if the client listens.
   void End() {
     if (!queue_.empty()) return Drop();
     socket_.async_close(websocket::close_code::going_away,
@@ -246,7 +246,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     const WebRequestHead head{View(request.target()),
                               View(request[http::field::host]),
                               View(request[http::field::origin])};
-    // What stands behind the second one would be checked by nobody.
+    // Nothing would check the fields after the second one.
     for (const auto field : {http::field::host, http::field::origin}) {
       if (request.count(field) < 2) continue;
       return Reply(http::status::bad_request,
