@@ -81,9 +81,8 @@ void VisitFields(Visitor&& visit, InitializationOptions& o) {
         "of a monocular start: rank1 (factorization of several frames, completed by geometric "
         "interpolation), rank1_pairwise (the same as the first paper has it: each frame's pose by "
         "itself, and a start at once), rank1_klt (of tracks alive in all frames), two_view "
-        "(homography or "
-        "essential matrix of two frames, points matched by descriptor), two_view_images (the same "
-        "from the matches and with the patience of rank1)");
+        "(fundamental matrix or homography of two frames as ORB-SLAM decides, points matched by "
+        "descriptor), two_view_images (the same from the matches and with the patience of rank1)");
   visit("frames", o.frames, "frames after the reference that are solved together", Range{2, 30});
   visit("relative_pose",
         o.relative_pose,

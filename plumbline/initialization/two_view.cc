@@ -10,10 +10,9 @@
 #include "plumbline/solvers/homography.h"
 #include "plumbline/solvers/parallax.h"
 #include "plumbline/solvers/ransac.h"
-#include "plumbline/solvers/relative_pose_problems.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -21,20 +20,17 @@
 namespace plumbline {
 namespace {
 
-// Values of the paper (section IV), and our own where the paper gives none.
+// Values of the paper (section IV), and of the system that came with it where the paper gives none.
 constexpr std::size_t kMinFeatures = 100;
 constexpr std::size_t kMinMatches = 100;
 constexpr std::size_t kMinPoints = 50;
 constexpr double kHomographyShare = 0.45;
-constexpr double kRivalPart = 0.75;
+constexpr double kRivalPartOfFundamental = 0.7;
+constexpr double kRivalPartOfHomography = 0.75;
 constexpr double kMinGoodPart = 0.9;  // share of the inliers of the model
 constexpr double kMinParallaxDeg = 1;
 constexpr int kSamples = 200;
-// The paper's deviation of a distance is a pixel at the finest octave, whose coordinates are known
-// to half of that. Its share of 0.45 depends on it: on a plane, residuals as large as the deviation
-// bring the homography's share to 0.45 and no further, since it explains two coordinates of a
-// point.
-constexpr double kScoreSigma = 2;
+constexpr double kMaxReprojectionChi2 = 8;  // of the best point, both images: two pixels in each
 
 double Gain(double chi2, double limit) { return chi2 < limit ? kChi2TwoDof95 - chi2 : 0; }
 
@@ -49,24 +45,66 @@ double PointChi2(const Eigen::Vector3d& mapped, const Eigen::Vector2d& point, do
   return (mapped.head<2>() / mapped.z() - point).squaredNorm() / (sigma * sigma);
 }
 
-bool ExplainedByModel(const Eigen::Matrix3d& model, TwoViewModel kind, const RayMatch& match) {
-  return kind == TwoViewModel::kEssential ? SampsonChi2(model, match) < kChi2OneDof95
-                                          : SquaredTransferError(model, match) < kChi2TwoDof95;
+// The two distances of a match, one in each image, over their deviations, squared.
+using BothChi2 = std::array<double, 2>;
+
+BothChi2 EpipolarChi2(const Eigen::Matrix3d& F, const RayMatch& m) {
+  return {LineChi2(F * m.a.homogeneous(), m.b, m.sigma_b),
+          LineChi2(F.transpose() * m.b.homogeneous(), m.a, m.sigma_a)};
+}
+
+BothChi2 TransferChi2(const Eigen::Matrix3d& H, const Eigen::Matrix3d& inverse, const RayMatch& m) {
+  return {PointChi2(H * m.a.homogeneous(), m.b, m.sigma_b),
+          PointChi2(inverse * m.b.homogeneous(), m.a, m.sigma_a)};
 }
 
 std::vector<RayMatch> Inliers(const Eigen::Matrix3d& model,
                               TwoViewModel kind,
                               std::span<const RayMatch> matches) {
+  const bool epipolar = kind == TwoViewModel::kFundamental;
+  const double limit = epipolar ? kChi2OneDof95 : kChi2TwoDof95;
+  const Eigen::Matrix3d inverse = epipolar ? model : model.inverse();
   std::vector<RayMatch> inliers;
-  for (const RayMatch& match : matches) {
-    if (ExplainedByModel(model, kind, match)) inliers.push_back(match);
+  for (const RayMatch& m : matches) {
+    const auto [in_b, in_a] = epipolar ? EpipolarChi2(model, m) : TransferChi2(model, inverse, m);
+    if (in_b < limit && in_a < limit) inliers.push_back(m);
   }
   return inliers;
 }
 
+struct ScoredMatrix {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
+  double score = 0;
+
+  void TakeBetter(const Eigen::Matrix3d& other, double of_other) {
+    if (of_other > score) *this = {other, of_other};
+  }
+};
+
+struct BothModels {
+  ScoredMatrix fundamental, homography;
+};
+
+// The best fundamental matrix and the best homography of random sets of eight matches.
+BothModels BestModels(std::span<const RayMatch> matches, Rng& rng) {
+  BothModels best;
+  for (int k = 0; k < kSamples; ++k) {
+    const auto sample = DrawSample<8>(matches.size(), rng);
+    std::array<RayMatch, 8> picked;
+    for (std::size_t i = 0; i < sample.size(); ++i) picked[i] = matches[sample[i]];
+    if (const auto F = FundamentalFromEightPoints(picked)) {
+      best.fundamental.TakeBetter(*F, EpipolarScore(*F, matches));
+    }
+    if (const auto H = HomographyFromPoints(picked)) {
+      best.homography.TakeBetter(*H, TransferScore(*H, matches));
+    }
+  }
+  return best;
+}
+
 std::vector<Rigid3> MotionsOf(const Eigen::Matrix3d& model, TwoViewModel kind) {
   std::vector<Rigid3> motions;
-  if (kind == TwoViewModel::kEssential) {
+  if (kind == TwoViewModel::kFundamental) {  // of rays, so that it stands for an essential matrix
     const auto poses = PosesFromEssential(model);
     motions.assign(poses.begin(), poses.end());
     return motions;
@@ -81,7 +119,7 @@ std::vector<Rigid3> MotionsOf(const Eigen::Matrix3d& model, TwoViewModel kind) {
 }
 
 bool IsGood(const Rigid3& pose, const Eigen::Matrix3d& essential, const RayMatch& match) {
-  return SampsonChi2(essential, match) < kChi2OneDof95 && IsInFront(pose, match);
+  return SampsonChi2(essential, match) < kMaxReprojectionChi2 && IsInFront(pose, match);
 }
 
 struct MotionVote {
@@ -112,33 +150,36 @@ void MarkGood(std::span<const RayMatch> matches, TwoViewSolution& solution) {
     solution.is_good.push_back(IsGood(pose, E, match));
     if (solution.is_good.back()) good.push_back(match);
   }
-  solution.parallax_deg = MedianParallax(good, pose.rotation) / kDegree;
+  solution.parallax_deg = ParallaxOf(kMinPoints, good, pose.rotation) / kDegree;
 }
 
 InitializationStatus Verdict(std::span<const MotionVote> votes,
                              std::size_t inliers,
+                             TwoViewModel model,
                              double parallax_deg) {
   const std::size_t best = votes.front().good;
+  const double rival_part =
+      model == TwoViewModel::kFundamental ? kRivalPartOfFundamental : kRivalPartOfHomography;
   const double required =
       std::max(static_cast<double>(kMinPoints), kMinGoodPart * static_cast<double>(inliers));
   if (parallax_deg < kMinParallaxDeg) return InitializationStatus::kTooLittleParallax;
   if (votes.size() > 1 &&
-      static_cast<double>(votes[1].good) > kRivalPart * static_cast<double>(best)) {
+      static_cast<double>(votes[1].good) > rival_part * static_cast<double>(best)) {
     return InitializationStatus::kAmbiguous;
   }
   if (static_cast<double>(best) < required) return InitializationStatus::kInaccurate;
   return InitializationStatus::kNone;
 }
 
+// A pixel as a distance between rays.
+double PixelOf(const RectifiedCamera& camera) { return 2 / (camera.fx + camera.fy); }
+
 }  // namespace
 
-double EpipolarScore(const Eigen::Matrix3d& essential, std::span<const RayMatch> matches) {
+double EpipolarScore(const Eigen::Matrix3d& fundamental, std::span<const RayMatch> matches) {
   double score = 0;
   for (const RayMatch& m : matches) {
-    score +=
-        Gain(LineChi2(essential * m.a.homogeneous(), m.b, kScoreSigma * m.sigma_b), kChi2OneDof95);
-    score += Gain(LineChi2(essential.transpose() * m.b.homogeneous(), m.a, kScoreSigma * m.sigma_a),
-                  kChi2OneDof95);
+    for (const double chi2 : EpipolarChi2(fundamental, m)) score += Gain(chi2, kChi2OneDof95);
   }
   return score;
 }
@@ -147,28 +188,26 @@ double TransferScore(const Eigen::Matrix3d& homography, std::span<const RayMatch
   const Eigen::Matrix3d inverse = homography.inverse();
   double score = 0;
   for (const RayMatch& m : matches) {
-    score += Gain(PointChi2(homography * m.a.homogeneous(), m.b, kScoreSigma * m.sigma_b),
-                  kChi2TwoDof95);
-    score +=
-        Gain(PointChi2(inverse * m.b.homogeneous(), m.a, kScoreSigma * m.sigma_a), kChi2TwoDof95);
+    for (const double chi2 : TransferChi2(homography, inverse, m)) {
+      score += Gain(chi2, kChi2TwoDof95);
+    }
   }
   return score;
 }
 
-TwoViewSolution SolveTwoViews(std::span<const RayMatch> matches, Rng& rng) {
+TwoViewSolution SolveTwoViews(std::span<const RayMatch> measured, double pixel, Rng& rng) {
   TwoViewSolution solution;
   solution.wait = InitializationStatus::kTooFewMatches;
-  if (matches.size() < kMinMatches) return solution;
-  const EightPointProblem essentials(matches);
-  const HomographyProblem homographies(matches);
-  const auto E = Ransac<EightPointProblem>(essentials, kSamples, 1).Run({}, rng);
-  const auto H = Ransac<HomographyProblem>(homographies, kSamples, 1).Run({}, rng);
-  if (E.empty() || H.empty()) return solution;
-  const double epipolar = EpipolarScore(E.front().model, matches);
-  const double transfer = TransferScore(H.front().model, matches);
+  if (measured.size() < kMinMatches) return solution;
+  std::vector<RayMatch> matches(measured.begin(), measured.end());
+  for (RayMatch& match : matches) match.sigma_a = match.sigma_b = pixel;
+  const BothModels best = BestModels(matches, rng);
+  const double epipolar = best.fundamental.score;
+  const double transfer = best.homography.score;
+  if (!(epipolar + transfer > 0)) return solution;
   const bool plane = transfer > kHomographyShare * (transfer + epipolar);
-  solution.model = plane ? TwoViewModel::kHomography : TwoViewModel::kEssential;
-  const Eigen::Matrix3d& model = plane ? H.front().model : E.front().model;
+  solution.model = plane ? TwoViewModel::kHomography : TwoViewModel::kFundamental;
+  const Eigen::Matrix3d& model = plane ? best.homography.matrix : best.fundamental.matrix;
 
   const std::vector<RayMatch> inliers = Inliers(model, solution.model, matches);
   const std::vector<MotionVote> votes = Vote(MotionsOf(model, solution.model), inliers);
@@ -178,7 +217,7 @@ TwoViewSolution SolveTwoViews(std::span<const RayMatch> matches, Rng& rng) {
   }
   solution.b_from_a = votes.front().pose;
   MarkGood(matches, solution);
-  solution.wait = Verdict(votes, inliers.size(), solution.parallax_deg);
+  solution.wait = Verdict(votes, inliers.size(), solution.model, solution.parallax_deg);
   return solution;
 }
 
@@ -206,7 +245,7 @@ InitializationResult TwoViewInitializer::Add(const InitializationFrame& frame) {
   Rng rng(seed_, "two_view", static_cast<std::uint64_t>(frame.id.value));
   const auto rays = RayMatchesOf(camera_, before, features, matches.points);
   ++counts_.two_view_solutions;
-  const TwoViewSolution solution = SolveTwoViews(rays, rng);
+  const TwoViewSolution solution = SolveTwoViews(rays, PixelOf(camera_), rng);
   result.parallax_deg = solution.parallax_deg;
   result.wait = solution.wait;
   if (result.wait != kNone) return result;
@@ -238,7 +277,7 @@ InitializationResult TwoViewImagesInitializer::Add(const InitializationFrame& fr
   ++counts_.aligned_images;
   ++counts_.two_view_solutions;
   const TwoViewSolution solution =
-      SolveTwoViews(MatchesBetween(tracks.reference, tracks.views.front()), rng);
+      SolveTwoViews(MatchesBetween(tracks.reference, tracks.views.front()), PixelOf(camera_), rng);
   result.parallax_deg = solution.parallax_deg;
   result.wait = solution.wait;
   if (result.wait != kNone) return result;

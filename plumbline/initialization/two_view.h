@@ -18,39 +18,48 @@
 namespace plumbline {
 
 // Returns how well a model of two views explains matches (Mur-Artal, Montiel and Tardos,
-// "ORB-SLAM", 2015, section IV). This is the sum of 5.99 - d^2 over both images of all matches,
-// where d is the distance over its deviation. d^2 counts below 3.84 for the distance from the
-// epipolar line, and below 5.99 for the distance from the mapped point.
-double EpipolarScore(const Eigen::Matrix3d& essential, std::span<const RayMatch> matches);
+// "ORB-SLAM", 2015, section IV): the sum of 5.99 - d^2 over both images of all matches, where d is
+// the distance over its deviation. Only d^2 below 3.84 counts for the distance from the epipolar
+// line, and below 5.99 for the distance from the mapped point.
+double EpipolarScore(const Eigen::Matrix3d& fundamental, std::span<const RayMatch> matches);
 double TransferScore(const Eigen::Matrix3d& homography, std::span<const RayMatch> matches);
 
-enum class TwoViewModel { kEssential, kHomography };
+// What two views have in common; the fundamental matrix is that of rays (x/z, y/z).
+enum class TwoViewModel { kFundamental, kHomography };
 
 struct TwoViewSolution {
   InitializationStatus wait = InitializationStatus::kNone;  // kNone: the pose can be used
-  TwoViewModel model = TwoViewModel::kEssential;
+  TwoViewModel model = TwoViewModel::kFundamental;
   // Pose with |translation| = 1. It is that of the best motion, even where the solution is not
   // good.
   Rigid3 b_from_a;
   // For each match, whether its point is in front of both views and agrees with both.
   std::vector<bool> is_good;
-  // Median angle between the rays of good matches, without the rotation.
+  // Angle that the rays of 50 good matches reach, without the rotation.
   double parallax_deg = 0;
 };
 
-// Decides on the relative pose as the ORB-SLAM paper does (section IV). Essential matrix and
-// homography are found by RANSAC; the homography is chosen where its share of the two scores is
+// Decides on the relative pose as the ORB-SLAM paper does (section IV): 200 random sets of eight
+// matches, of each set a fundamental matrix (normalized eight points) and a homography (normalized
+// DLT), the best of each by its score, and the homography where its share of the two scores is
 // above 0.45. Of all motions of the chosen model the one is taken with most points that lie in
 // front and agree with both views, if it has enough of them, parallax, and no rival.
 //
-// Differs from the paper: the essential matrix takes the place of the fundamental matrix, since the
-// camera is calibrated; the number of samples is adaptive, and the inliers are fitted by least
-// squares (ransac.h).
+//   pixel  deviation of each coordinate in both images: a pixel, over the focal length. Those of
+//          the matches are not used, as in the paper, which takes all octaves alike
 //
-//   fails  wait says why: kTooFewMatches, kAmbiguous (a rival with 0.75 of the points),
-//          kTooLittleParallax (median below 1 degree), kInaccurate (too few good points)
+// Differs from the paper: the homography is of all eight matches, which the paper has of four of
+// them: of four, noise makes it lose planes to the fundamental matrix. The rays of the calibrated
+// camera take the place of pixels, which comes to the same for square pixels, and makes the
+// fundamental matrix an essential one but for its singular values; a point agrees by its Sampson
+// distance, which to first order is the error of reprojection of the best point, and is not
+// triangulated.
+//
+//   fails  wait says why: kTooFewMatches, kAmbiguous (a rival with 0.7 of the points, with 0.75 for
+//          a homography), kTooLittleParallax (fewer than 50 points reach a degree), kInaccurate
+//          (fewer than 50 good points, or than 0.9 of the inliers of the model)
 //   cost   some milliseconds
-TwoViewSolution SolveTwoViews(std::span<const RayMatch> matches, Rng& rng);
+TwoViewSolution SolveTwoViews(std::span<const RayMatch> matches, double pixel, Rng& rng);
 
 // The conventional start: the first frame with enough features is the reference until a later one
 // gives a pose (SolveTwoViews) and a map after bundle adjustment. A frame with too few matches

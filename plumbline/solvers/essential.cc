@@ -3,6 +3,7 @@
 #include "plumbline/solvers/essential.h"
 
 #include "plumbline/geometry/eigenpairs.h"
+#include "plumbline/solvers/normalization.h"
 #include "plumbline/solvers/polynomial.h"
 
 #include <algorithm>
@@ -208,28 +209,6 @@ Eigen::Matrix3d MatrixByRows(const Eigen::Matrix<double, 9, 1>& e) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(e.data());
 }
 
-// The map x -> scale (x - centre), which gives points mean 0 and mean square 2.
-struct Normalization {
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
-  double scale = 1;
-
-  Eigen::Matrix3d Matrix() const {
-    Eigen::Matrix3d m = Eigen::Vector3d(scale, scale, 1).asDiagonal();
-    m.topRightCorner<2, 1>() = -scale * centre;
-    return m;
-  }
-};
-
-Normalization NormalizationOf(std::span<const RayMatch> matches, Eigen::Vector2d RayMatch::*side) {
-  Normalization n;
-  const double count = static_cast<double>(matches.size());
-  for (const RayMatch& m : matches) n.centre += m.*side / count;
-  double spread = 0;
-  for (const RayMatch& m : matches) spread += (m.*side - n.centre).squaredNorm() / count;
-  if (spread > 0) n.scale = std::sqrt(2 / spread);
-  return n;
-}
-
 }  // namespace
 
 std::vector<Eigen::Matrix3d> EssentialFromFivePoints(std::span<const RayMatch, 5> matches) {
@@ -256,22 +235,51 @@ std::vector<Eigen::Matrix3d> EssentialFromFivePoints(std::span<const RayMatch, 5
   return solutions;
 }
 
-std::optional<Eigen::Matrix3d> EssentialFromEightPoints(std::span<const RayMatch> matches) {
+namespace {
+
+// The solution of the linear equations on normalized points: its rank is 3.
+struct LinearEpipolar {
+  Eigen::Matrix3d F;
+  Eigen::Matrix3d in_a, in_b;  // the normalizations
+
+  Eigen::Matrix3d Denormalized(const Eigen::Matrix3d& normalized) const {
+    return in_b.transpose() * normalized * in_a;
+  }
+};
+
+std::optional<LinearEpipolar> SolveEightPoints(std::span<const RayMatch> matches) {
   if (matches.size() < 8) return std::nullopt;
   const Normalization in_a = NormalizationOf(matches, &RayMatch::a);
   const Normalization in_b = NormalizationOf(matches, &RayMatch::b);
   Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
   for (const RayMatch& m : matches) {
-    const Eigen::Vector3d a = (in_a.scale * (m.a - in_a.centre)).homogeneous();
-    const Eigen::Vector3d b = (in_b.scale * (m.b - in_b.centre)).homogeneous();
+    const Eigen::Vector3d a = in_a.Apply(m.a).homogeneous();
+    const Eigen::Vector3d b = in_b.Apply(m.b).homogeneous();
     Eigen::Matrix<double, 9, 1> row;
     row << b.x() * a, b.y() * a, b.z() * a;
     normal.selfadjointView<Eigen::Lower>().rankUpdate(row);
   }
   const Eigenpairs<9> eigen = EigenpairsOf<9>(normal);
   if (!(eigen.values(1) > 1e-12 * eigen.values(8))) return std::nullopt;
-  const Eigen::Matrix3d F =
-      in_b.Matrix().transpose() * MatrixByRows(eigen.vectors.col(0)) * in_a.Matrix();
+  return LinearEpipolar{MatrixByRows(eigen.vectors.col(0)), in_a.Matrix(), in_b.Matrix()};
+}
+
+}  // namespace
+
+std::optional<Eigen::Matrix3d> FundamentalFromEightPoints(std::span<const RayMatch> matches) {
+  const auto linear = SolveEightPoints(matches);
+  if (!linear) return std::nullopt;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear->F, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d singular = svd.singularValues();
+  singular(2) = 0;
+  return linear->Denormalized(svd.matrixU() * singular.asDiagonal() * svd.matrixV().transpose())
+      .normalized();
+}
+
+std::optional<Eigen::Matrix3d> EssentialFromEightPoints(std::span<const RayMatch> matches) {
+  const auto linear = SolveEightPoints(matches);
+  if (!linear) return std::nullopt;
+  const Eigen::Matrix3d F = linear->Denormalized(linear->F);
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d singular = Eigen::Vector3d(1, 1, 0) / std::sqrt(2);
   return svd.matrixU() * singular.asDiagonal() * svd.matrixV().transpose();

@@ -30,6 +30,11 @@ std::vector<Eigen::Matrix3d> EssentialFromFivePoints(std::span<const RayMatch, 5
 // dimension 3).
 std::optional<Eigen::Matrix3d> EssentialFromEightPoints(std::span<const RayMatch> matches);
 
+// Returns the fundamental matrix of eight or more matches by the same linear least squares: of rank
+// 2 in the normalized coordinates, but without the two equal singular values that a calibrated
+// camera has. Nullopt as above.
+std::optional<Eigen::Matrix3d> FundamentalFromEightPoints(std::span<const RayMatch> matches);
+
 // Returns the four poses with this essential matrix: two rotations, each with a translation of
 // length 1 and its opposite. The right one has the points in front of both cameras (cheirality).
 std::array<Rigid3, 4> PosesFromEssential(const Eigen::Matrix3d& essential);

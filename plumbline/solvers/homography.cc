@@ -3,6 +3,7 @@
 #include "plumbline/solvers/homography.h"
 
 #include "plumbline/geometry/eigenpairs.h"
+#include "plumbline/solvers/normalization.h"
 
 #include <cmath>
 #include <limits>
@@ -52,9 +53,15 @@ std::optional<Eigen::Matrix3d> HomographyFromFourPoints(std::span<const RayMatch
 std::optional<Eigen::Matrix3d> HomographyFromPoints(std::span<const RayMatch> matches,
                                                     const Eigen::Matrix3d* start) {
   if (matches.size() < 4) return std::nullopt;
+  Normalization in_a, in_b;
+  if (start == nullptr) {
+    in_a = NormalizationOf(matches, &RayMatch::a);
+    in_b = NormalizationOf(matches, &RayMatch::b);
+  }
   Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
   for (const RayMatch& m : matches) {
-    const Eigen::Vector3d a = m.a.homogeneous();
+    const Eigen::Vector3d a = in_a.Apply(m.a).homogeneous();
+    const Eigen::Vector2d b = in_b.Apply(m.b);
     double weight = 1;
     if (start != nullptr) {
       const Eigen::Vector3d mapped = *start * a;
@@ -62,15 +69,18 @@ std::optional<Eigen::Matrix3d> HomographyFromPoints(std::span<const RayMatch> ma
     }
     Eigen::Matrix<double, 9, 2> rows = Eigen::Matrix<double, 9, 2>::Zero();
     rows.block<3, 1>(0, 0) = weight * a;
-    rows.block<3, 1>(6, 0) = -weight * m.b.x() * a;
+    rows.block<3, 1>(6, 0) = -weight * b.x() * a;
     rows.block<3, 1>(3, 1) = weight * a;
-    rows.block<3, 1>(6, 1) = -weight * m.b.y() * a;
+    rows.block<3, 1>(6, 1) = -weight * b.y() * a;
     normal.selfadjointView<Eigen::Lower>().rankUpdate(rows);
   }
   const Eigenpairs<9> eigen = EigenpairsOf<9>(normal);
   if (!(eigen.values(1) > 1e-12 * eigen.values(8))) return std::nullopt;
   const Eigen::Matrix<double, 9, 1> h = eigen.vectors.col(0);
-  return Eigen::Matrix3d(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(h.data()));
+  const Eigen::Matrix3d H =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(h.data());
+  if (start != nullptr) return H;
+  return Eigen::Matrix3d(in_b.Matrix().inverse() * H * in_a.Matrix());
 }
 
 double SquaredTransferError(const Eigen::Matrix3d& homography, const RayMatch& match) {

@@ -17,9 +17,9 @@ namespace plumbline {
 // the projective basis. Returns nullopt if three of the points are collinear.
 std::optional<Eigen::Matrix3d> HomographyFromFourPoints(std::span<const RayMatch, 4> matches);
 
-// Returns the homography of four or more matches by linear least squares (DLT), with every equation
-// divided by its standard deviation at the homography `start`, if given. Returns nullopt if it is
-// not determined.
+// Returns the homography of four or more matches by linear least squares (DLT): on centred and
+// scaled coordinates (Hartley 1997) or, if a homography `start` is given, with every equation
+// divided by its standard deviation there. Returns nullopt if it is not determined.
 std::optional<Eigen::Matrix3d> HomographyFromPoints(std::span<const RayMatch> matches,
                                                     const Eigen::Matrix3d* start = nullptr);
 

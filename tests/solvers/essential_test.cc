@@ -85,6 +85,20 @@ TEST(EssentialFromEightPoints, ExactMatchesGiveTheTrueMatrix) {
   }
 }
 
+TEST(FundamentalFromEightPoints, ExactMatchesGiveTheTrueMatrixAndNoisyOnesRankTwo) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const TwoViewScene scene = MakeTwoViewScene(seed, {.points = 12, .noise = 0});
+    const auto F = FundamentalFromEightPoints(scene.matches);
+    ASSERT_TRUE(F);
+    EXPECT_LT(Difference(*F, EssentialMatrix(scene.b_from_a).normalized()), 1e-6);
+    const auto noisy = FundamentalFromEightPoints(MakeTwoViewScene(seed, {.points = 12}).matches);
+    ASSERT_TRUE(noisy);
+    EXPECT_LT(std::abs(noisy->determinant()), 1e-12);
+    const Eigen::Vector3d singular = noisy->jacobiSvd().singularValues();
+    EXPECT_GT(singular(0), 1.01 * singular(1)) << "not an essential matrix";
+  }
+}
+
 TEST(EssentialFromEightPoints, FailsOnAPlaneAndWithFewer) {
   const TwoViewScene plane =
       MakeTwoViewScene(1, {.kind = SceneKind::kPlane, .points = 30, .noise = 0});

@@ -21,5 +21,15 @@ TEST(MedianParallax, IsTheAngleAtThePoint) {
   EXPECT_EQ(MedianParallax({}, pose.rotation), 0);
 }
 
+TEST(ParallaxOf, IsWhatSoManyMatchesReach) {
+  std::vector<RayMatch> matches;
+  for (const double offset : {0.1, 0.3, 0.2}) matches.push_back({{0, 0}, {offset, 0}});
+  const Eigen::Quaterniond still = Eigen::Quaterniond::Identity();
+  EXPECT_NEAR(ParallaxOf(1, matches, still), std::atan(0.3), 1e-12);
+  EXPECT_NEAR(ParallaxOf(2, matches, still), std::atan(0.2), 1e-12);
+  EXPECT_NEAR(ParallaxOf(9, matches, still), std::atan(0.1), 1e-12);
+  EXPECT_EQ(ParallaxOf(1, {}, still), 0);
+}
+
 }  // namespace
 }  // namespace plumbline
