@@ -12,17 +12,17 @@ namespace plumbline {
 
 namespace {
 
-void CleanMaps(const LineWeights& weights, SavedAtlas& saved) {
+void CleanMaps(const LineOptions& lines, SavedAtlas& saved) {
   const CameraAndPyramid imaging{saved.context.camera, saved.context.octave_scale};
   for (const auto& [id, map] : saved.atlas.maps()) {
-    saved.atlas.Find(id)->Apply(RemoveOutliers(map, imaging, weights));
+    saved.atlas.Find(id)->Apply(RemoveOutliers(map, imaging, lines));
   }
 }
 
 }  // namespace
 
-MapSaver::MapSaver(std::filesystem::path file, const LineWeights& weights)
-    : file_(std::move(file)), weights_(weights), writer_([this] { WriteUntilStopped(); }) {}
+MapSaver::MapSaver(std::filesystem::path file, const LineOptions& lines)
+    : file_(std::move(file)), lines_(lines), writer_([this] { WriteUntilStopped(); }) {}
 
 MapSaver::~MapSaver() {
   const std::lock_guard lock(mutex_);
@@ -50,7 +50,7 @@ void MapSaver::WriteUntilStopped() {
     lock.unlock();
     std::optional<std::string> failure;
     try {
-      CleanMaps(weights_, copy);
+      CleanMaps(lines_, copy);
       SaveAtlas(file_, copy.atlas, copy.context);
     } catch (const std::exception& error) {
       failure = error.what();

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/map/saved_atlas.h"
-#include "plumbline/matching/measurements.h"
+#include "plumbline/matching/line_options.h"
 
 #include <condition_variable>
 #include <filesystem>
@@ -19,8 +19,8 @@ namespace plumbline {
 // (RemoveOutliers).
 class MapSaver {
  public:
-  // The file is replaced whole each time (SaveAtlas). `weights` are those of the run's lines.
-  MapSaver(std::filesystem::path file, const LineWeights& weights);
+  // The file is replaced whole each time (SaveAtlas). `lines` are the run's options of lines.
+  MapSaver(std::filesystem::path file, const LineOptions& lines);
   // Writes what it has begun with, and no more.
   ~MapSaver();
   MapSaver(const MapSaver&) = delete;
@@ -35,7 +35,7 @@ class MapSaver {
   void WriteUntilStopped();
 
   std::filesystem::path file_;
-  LineWeights weights_;
+  LineOptions lines_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<SavedAtlas> next_;

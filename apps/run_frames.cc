@@ -67,9 +67,9 @@ class FrameFeed {
         views_(views),
         progress_(input.live != nullptr ? std::nullopt : std::optional(input.frames.size()), quiet),
         journal_(input.dataset->info().time_mirror_ns),
-        saver_(input.save_every_s > 0 ? std::make_shared<MapSaver>(folder.part() / "map.plb",
-                                                                   system.options().lines.weights())
-                                      : nullptr),
+        saver_(input.save_every_s > 0
+                   ? std::make_shared<MapSaver>(folder.part() / "map.plb", system.options().lines)
+                   : nullptr),
         frames_(OpenFrames(input,
                            system.options().slam.mode,
                            [this](const std::string& message) { progress_.Say(message); })),

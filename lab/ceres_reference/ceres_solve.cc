@@ -140,7 +140,11 @@ void CeresBa::AddBlocks() {
     terms_.AddParameterBlock(point.data(), 3);
     order_->AddElementToGroup(point.data(), kLandmarks);
   }
-  if (HasEnds() || HasProjectedEnds()) ends_ = TrimmedEnds(problem_);
+  if (HasEnds()) {
+    ends_ = EndsOf(problem_);
+  } else if (HasProjectedEnds()) {
+    ends_ = TrimmedEnds(problem_);
+  }
   lines_.resize(problem_.lines.size());
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     if (HasEnds()) {

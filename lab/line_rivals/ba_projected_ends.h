@@ -97,8 +97,10 @@ struct BaProjectedEnds : BaProjectedTerms<PointEndsView> {
   static State Retract(const State& state, const Vector6d& step) {
     return BaLineEnds::Retract(state, step);
   }
-  // An end that slides along the line changes its residuals by their noise alone; held as in
-  // BaLineEnds.
+  // An end that slides along the line changes its residuals by the noise of the measured lines
+  // alone. Steps along it are damped by as much as in BaLineEnds, so that ends drift instead of
+  // jumping to where the measured lines meet best: both to the same place, in the middle of what
+  // was measured. Nothing draws them back.
   static void HoldGauge(const View& view, LandmarkEquations<kDof>& equations) {
     BaLineEnds::HoldAlong(view.direction, equations);
   }
@@ -111,7 +113,7 @@ struct BaLineEnd {
   static constexpr int kDof = 3;
   struct State {
     Eigen::Vector3d point;
-    Eigen::Vector3d direction;  // of the line at the start, along which no image fixes the end
+    Eigen::Vector3d direction;  // of the line at the start, along which steps are damped
   };
   struct Term {
     Eigen::Vector3d line = Eigen::Vector3d::Zero();  // as in ProjectedEndsTerm, whitened

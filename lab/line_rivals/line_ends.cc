@@ -15,6 +15,11 @@ constexpr LineInterval kAroundFoot{-1, 1};
 // Ends nearer to each other than this part of their distance from the origin make no line.
 constexpr double kMinRelativeLength = 1e-6;
 
+bool MakeALine(const Segment3& ends) {
+  const bool is_long = ends.Length() > kMinRelativeLength * (ends.start.norm() + ends.end.norm());
+  return is_long && ends.start.allFinite() && ends.end.allFinite();
+}
+
 std::optional<Segment3> Trim(const BaProblem& problem, const BaProblem::LineObservation& o) {
   const PluckerLine line = ToPlucker(problem.lines[static_cast<std::size_t>(o.line)]);
   Rigid3 cam_from_world = problem.poses[static_cast<std::size_t>(o.pose)].cam_from_world;
@@ -23,9 +28,7 @@ std::optional<Segment3> Trim(const BaProblem& problem, const BaProblem::LineObse
   if (!interval) return std::nullopt;
   if (interval->end < interval->start) std::swap(interval->start, interval->end);
   const Segment3 ends = SegmentOf(line, *interval);
-  const bool is_long = ends.Length() > kMinRelativeLength * (ends.start.norm() + ends.end.norm());
-  if (!is_long || !ends.start.allFinite() || !ends.end.allFinite()) return std::nullopt;
-  return ends;
+  return MakeALine(ends) ? std::optional(ends) : std::nullopt;
 }
 
 }  // namespace
@@ -48,6 +51,19 @@ std::vector<Segment3> TrimmedEnds(const BaProblem& problem) {
     out.push_back(trimmed[i] ? *trimmed[i] : SegmentOf(ToPlucker(problem.lines[i]), kAroundFoot));
   }
   return out;
+}
+
+std::vector<Segment3> EndsOf(const BaProblem& problem) {
+  return problem.line_ends.empty() ? TrimmedEnds(problem) : problem.line_ends;
+}
+
+std::vector<Segment3> EndsOfLines(const std::vector<Segment3>& before,
+                                  const std::vector<Segment3>& moved) {
+  std::vector<Segment3> ends(before);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (MakeALine(moved[i])) ends[i] = moved[i];
+  }
+  return ends;
 }
 
 std::vector<OrthonormalLine> LinesThroughEnds(const std::vector<OrthonormalLine>& lines,

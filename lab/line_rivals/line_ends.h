@@ -14,6 +14,13 @@ namespace plumbline {
 // points a unit to both sides of their foot.
 std::vector<Segment3> TrimmedEnds(const BaProblem& problem);
 
+// The ends of lines that are two points: those of the problem; where it has none, TrimmedEnds.
+std::vector<Segment3> EndsOf(const BaProblem& problem);
+
+// The moved ends; where two are too near each other to make a line, those of `before`.
+std::vector<Segment3> EndsOfLines(const std::vector<Segment3>& before,
+                                  const std::vector<Segment3>& moved);
+
 // The lines through moved ends. Where the ends are those of `before`, the line is that of `lines`,
 // bit by bit.
 std::vector<OrthonormalLine> LinesThroughEnds(const std::vector<OrthonormalLine>& lines,

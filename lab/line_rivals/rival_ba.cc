@@ -60,15 +60,23 @@ BaResult SolveWithProjectedLines(const BaProblem& problem,
   return result;
 }
 
+void TakeEnds(const BaProblem& problem,
+              const std::vector<Segment3>& before,
+              const std::vector<Segment3>& moved,
+              BaResult& result) {
+  result.line_ends = EndsOfLines(before, moved);
+  result.lines = LinesThroughEnds(problem.lines, before, result.line_ends);
+}
+
 // Ends: BaLineEnds or BaProjectedEnds.
 template <class Ends>
 BaResult SolveWithEnds(const BaProblem& problem,
                        const LocalBaOptions& options,
                        const StopCheck& stop) {
-  const std::vector<Segment3> ends = TrimmedEnds(problem);
+  const std::vector<Segment3> ends = EndsOf(problem);
   BundleAdjuster<Ends> adjuster(problem, ends, LineObservationsOf<Ends>(problem), options, stop);
   BaResult result = adjuster.Solve();
-  result.lines = LinesThroughEnds(problem.lines, ends, adjuster.lines());
+  TakeEnds(problem, ends, adjuster.lines(), result);
   return result;
 }
 
@@ -83,7 +91,7 @@ bool AllDiagonal(const BaProblem& problem) {
 BaResult SolveWithSeparateEnds(const BaProblem& problem,
                                const LocalBaOptions& options,
                                const StopCheck& stop) {
-  const std::vector<Segment3> ends = TrimmedEnds(problem);
+  const std::vector<Segment3> ends = EndsOf(problem);
   std::vector<BaLineEnd::State> states;
   for (const Segment3& s : ends) {
     states.push_back({s.start, s.end - s.start});
@@ -96,7 +104,7 @@ BaResult SolveWithSeparateEnds(const BaProblem& problem,
   for (std::size_t i = 0; i < ends.size(); ++i) {
     moved.push_back({adjuster.lines()[2 * i].point, adjuster.lines()[2 * i + 1].point});
   }
-  result.lines = LinesThroughEnds(problem.lines, ends, moved);
+  TakeEnds(problem, ends, moved, result);
   for (std::size_t k = 0; k < problem.line_observations.size(); ++k) {
     result.line_chi2[k] = result.line_chi2[2 * k] + result.line_chi2[2 * k + 1];
     result.line_inliers[k] = result.line_inliers[2 * k] && result.line_inliers[2 * k + 1];

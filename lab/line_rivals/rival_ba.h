@@ -17,9 +17,11 @@ struct RivalLines {
 };
 
 // SolveLocalBa with another kind of line, by the same solver; the result is the same form of line.
-// Where ends are needed (end points, projected ends), they are those of TrimmedEnds(); end points
-// are blocks of 6. End points under projected ends with diagonal covariances are two landmarks a
-// line, each with its own loss: their blocks share nothing then.
+//
+// End points are blocks of 6: they begin at EndsOf(), the result has them where they have moved,
+// and the lines go through them. Nothing takes them back along their lines. Under projected ends
+// with diagonal covariances they are two landmarks a line, each with its own loss: their blocks
+// share nothing then. Other lines under projected ends have those of TrimmedEnds().
 //
 // BugError for axes under projected ends, which hold no lines parallel; otherwise as SolveLocalBa.
 BaResult SolveRivalBa(const BaProblem& problem,

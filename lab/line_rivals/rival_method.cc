@@ -3,6 +3,7 @@
 #include "lab/line_rivals/rival_method.h"
 
 #include "lab/line_rivals/line_ends.h"
+#include "lab/line_rivals/line_from_ends.h"
 #include "lab/line_rivals/rival_ba.h"
 #include "plumbline/tracking/projected_matches.h"
 
@@ -35,7 +36,7 @@ BaSolver SolverFor(LineParametrization parametrization) {
 void WeighProjectedEnds(const LineWeights& weights, BaProblem& problem) {
   problem.axes.clear();
   problem.parallel_lines.clear();
-  const std::vector<Segment3> ends = TrimmedEnds(problem);
+  const std::vector<Segment3> ends = EndsOf(problem);
   for (auto& o : problem.line_observations) {
     const auto line = static_cast<std::size_t>(o.line);
     UseProjectedEnds(problem.camera,
@@ -60,8 +61,9 @@ LineMethod MethodFor(const LineOptions& options) {
   LineMethod method = ProductLineMethod(options);
   method.parametrization = options.parametrization;
   method.reconstruction = options.reconstruction;
+  method.keeps_ends = options.parametrization == LineParametrization::kEndpoints;
   if (options.reconstruction == LineReconstruction::kTwoView) {
-    method.line_from_views = LineFromTwoViews;
+    method.line_from_views = method.keeps_ends ? LineFromTwoEnds : LineFromTwoViews;
   }
   method.adjust_window = SolverFor<LineResidualKind::kObservedEnds>(options.parametrization);
   method.adjust_map = method.adjust_window;

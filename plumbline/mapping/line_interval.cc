@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace plumbline {
@@ -20,7 +21,8 @@ edit::MoveLine RefitInterval(const Map& map,
                              const CameraAndPyramid& imaging,
                              const std::map<KeyFrameId, Rigid3>& poses,
                              const MapLine& line,
-                             const PluckerLine& moved) {
+                             const PluckerLine& moved,
+                             const std::optional<Segment3>& kept) {
   PluckerLine target = moved;
   if (target.direction.dot(line.line.direction) < 0) target = {-moved.moment, -moved.direction};
   edit::MoveLine change{line.id, target, 0, 0, Eigen::Matrix4d::Zero()};
@@ -35,6 +37,7 @@ edit::MoveLine RefitInterval(const Map& map,
     frame.cam_from_world = it != poses.end() ? it->second : in_map.cam_from_world;
     const auto i = static_cast<std::size_t>(feature);
     change.information += LineInformation(imaging.camera, frame, i, prepared);
+    if (kept) continue;
     const auto interval = TrimToSegment(
         imaging.camera, frame.cam_from_world, target, frame.features().lines[i].segment);
     if (!interval) continue;
@@ -42,8 +45,10 @@ edit::MoveLine RefitInterval(const Map& map,
     ends.push_back(std::max(interval->start, interval->end));
   }
   if (starts.empty()) {
-    change.start = target.ParameterOf(line.line.PointAt(line.start));
-    change.end = target.ParameterOf(line.line.PointAt(line.end));
+    const Segment3 points = kept.value_or(line.Interval());
+    change.start = target.ParameterOf(points.start);
+    change.end = target.ParameterOf(points.end);
+    if (kept && change.end < change.start) std::swap(change.start, change.end);
     return change;
   }
   std::sort(starts.begin(), starts.end());

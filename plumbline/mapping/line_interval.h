@@ -6,6 +6,7 @@
 #include "plumbline/matching/projection_search.h"
 
 #include <map>
+#include <optional>
 
 namespace plumbline {
 
@@ -14,10 +15,12 @@ namespace plumbline {
 // overlong segment should not lengthen the line for ever. The information follows from all
 // observations. The direction keeps its sense.
 //   poses  keyframe poses that differ from the map's
+//   kept   the ends, where the line keeps its own: the interval reaches from one to the other
 edit::MoveLine RefitInterval(const Map& map,
                              const CameraAndPyramid& imaging,
                              const std::map<KeyFrameId, Rigid3>& poses,
                              const MapLine& line,
-                             const PluckerLine& moved);
+                             const PluckerLine& moved,
+                             const std::optional<Segment3>& kept = std::nullopt);
 
 }  // namespace plumbline

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 
 namespace plumbline {
@@ -122,6 +123,7 @@ class WindowBuilder {
     if (views.size() < 2 || !WellConditioned(line)) return;
     window_.lines.push_back(line.id);
     const int index = builder_.AddLine(line.line);
+    if (line_options_.method.keeps_ends) builder_.AddEnds(line.Interval());
     for (const auto& view : views) builder_.AddLineView(index, view, true);
   }
 
@@ -219,13 +221,19 @@ MapEdit ToEdit(const Map& map,
                const LocalBaWindow& window,
                const BaResult& result) {
   MapEdit edit = PosesAndPointsOf(window, result);
-  // The intervals and the information of lines follow from the new poses and the observations left.
+  // The information of lines, and the intervals of those that do not keep their ends, follow from
+  // the new poses and the observations left.
   const std::map<KeyFrameId, Rigid3> poses = PosesByKeyFrame(window, result);
   const std::vector<MapLine> lines = LinesWithoutOutliers(map, window, result);
   const Rigid3 world_from_window = Inverse(window.problem_from_world);
   for (std::size_t k = 0; k < window.lines.size(); ++k) {
     const PluckerLine line = Transform(world_from_window, ToPlucker(result.lines[k]));
-    edit.push_back(RefitInterval(map, imaging, poses, lines[k], line));
+    std::optional<Segment3> ends;
+    if (!result.line_ends.empty()) {
+      const Segment3& moved = result.line_ends[k];
+      ends = Segment3{world_from_window * moved.start, world_from_window * moved.end};
+    }
+    edit.push_back(RefitInterval(map, imaging, poses, lines[k], line, ends));
   }
   const auto& observations = window.problem.line_observations;
   for (std::size_t k = 0; k < observations.size(); ++k) {

@@ -182,7 +182,7 @@ std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) co
     });
     options.lens_calibration = false;  // the first round has learned the lens
   }
-  Timed("finish", times, [&] { map.Apply(RemoveOutliers(map, imaging_, lines_.weights())); });
+  Timed("finish", times, [&] { map.Apply(RemoveOutliers(map, imaging_, lines_)); });
   return times;
 }
 

@@ -65,6 +65,11 @@ int MapProblemBuilder::AddLine(const PluckerLine& in_world) {
   return static_cast<int>(out_.problem.lines.size()) - 1;
 }
 
+void MapProblemBuilder::AddEnds(const Segment3& in_world) {
+  const Rigid3& in_problem = out_.problem_from_world;
+  out_.problem.line_ends.push_back({in_problem * in_world.start, in_problem * in_world.end});
+}
+
 void MapProblemBuilder::AddLineView(int line, const View& view, bool with_right) {
   const Features& features = FeaturesOf(view);
   auto& observations = out_.problem.line_observations;

@@ -49,6 +49,8 @@ class MapProblemBuilder {
   void AddPoint(const MapPoint& point);
   // Adds a line without views and returns its index.
   int AddLine(const PluckerLine& in_world);
+  // Adds the ends of the newest line.
+  void AddEnds(const Segment3& in_world);
   // Adds the segment in the left image to a line; with `with_right` also that in the right image,
   // if any.
   void AddLineView(int line, const View& view, bool with_right);

@@ -7,6 +7,7 @@
 #include "plumbline/optimization/residuals.h"
 
 #include <cstddef>
+#include <optional>
 
 namespace plumbline {
 namespace {
@@ -21,8 +22,11 @@ constexpr std::size_t kFewestViews = 3;
 // Compares landmarks with their observations, at the poses of the map.
 class OutlierSearch {
  public:
-  OutlierSearch(const Map& map, const CameraAndPyramid& imaging, const LineWeights& weights)
-      : map_(map), imaging_(imaging), weights_(weights) {}
+  OutlierSearch(const Map& map, const CameraAndPyramid& imaging, const LineOptions& lines)
+      : map_(map),
+        imaging_(imaging),
+        weights_(lines.weights()),
+        keeps_ends_(lines.method.keeps_ends) {}
 
   // Adds the changes of a landmark to the edit.
   template <class Remove, class RemoveObservation, class Landmark>
@@ -146,20 +150,21 @@ class OutlierSearch {
   void AddMotion(const MapLine& before, const MapLine& fitted, MapEdit& edit) const {
     MapLine shown = before;
     shown.observations = fitted.observations;
-    edit.push_back(RefitInterval(map_, imaging_, {}, shown, fitted.line));
+    std::optional<Segment3> kept;
+    if (keeps_ends_) kept = before.Interval();
+    edit.push_back(RefitInterval(map_, imaging_, {}, shown, fitted.line, kept));
   }
 
   const Map& map_;
   const CameraAndPyramid& imaging_;
   LineWeights weights_;
+  bool keeps_ends_;
 };
 
 }  // namespace
 
-MapEdit RemoveOutliers(const Map& map,
-                       const CameraAndPyramid& imaging,
-                       const LineWeights& weights) {
-  const OutlierSearch search(map, imaging, weights);
+MapEdit RemoveOutliers(const Map& map, const CameraAndPyramid& imaging, const LineOptions& lines) {
+  const OutlierSearch search(map, imaging, lines);
   MapEdit edit;
   for (const auto& [id, point] : map.points()) {
     search.Search<edit::RemovePoint, edit::RemovePointObservation>(point, edit);

@@ -36,6 +36,10 @@ void ScaleAbout(const Eigen::Vector3d& centre, double scale, BaResult& result) {
     scaled.moment = scale * scaled.moment + (1 - scale) * centre.cross(scaled.direction);
     line = ToOrthonormal(scaled);
   }
+  for (Segment3& ends : result.line_ends) {
+    ends.start = scale * ends.start + (1 - scale) * centre;
+    ends.end = scale * ends.end + (1 - scale) * centre;
+  }
 }
 
 void Move(const Rigid3& new_from_old, BaResult& result) {
@@ -44,6 +48,9 @@ void Move(const Rigid3& new_from_old, BaResult& result) {
   for (Eigen::Vector3d& point : result.points) point = new_from_old * point;
   for (OrthonormalLine& line : result.lines) {
     line = ToOrthonormal(Transform(new_from_old, ToPlucker(line)));
+  }
+  for (Segment3& ends : result.line_ends) {
+    ends = {new_from_old * ends.start, new_from_old * ends.end};
   }
 }
 

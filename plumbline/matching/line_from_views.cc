@@ -81,15 +81,25 @@ std::optional<MapLine> LineFromViews(const Map& map,
   const auto triangulated =
       TriangulateLine(camera, ImageViews(map, camera, views), {.min_plane_angle = kMinPlaneAngle});
   if (!triangulated) return std::nullopt;
-  MapLine line;
-  line.line = triangulated->estimate.line;
+  const PluckerLine& line = triangulated->estimate.line;
   const Frame& first = map.Find(views.front().keyframe)->frame;
-  const LineFeature& feature = first.features().lines[views.front().feature];
-  const auto interval = TrimToSegment(camera, first.cam_from_world, line.line, feature.segment);
+  const Segment2& segment = first.features().lines[views.front().feature].segment;
+  const auto interval = TrimToSegment(camera, first.cam_from_world, line, segment);
   if (!interval || interval->end <= interval->start) return std::nullopt;
-  line.start = interval->start;
-  line.end = interval->end;
-  line.descriptor = feature.descriptor;
+  return MapLineFrom(map, camera, views, line, *interval);
+}
+
+MapLine MapLineFrom(const Map& map,
+                    const RectifiedCamera& camera,
+                    const std::vector<LineViewOf>& views,
+                    const PluckerLine& of_line,
+                    const LineInterval& interval) {
+  MapLine line;
+  line.line = of_line;
+  line.start = interval.start;
+  line.end = interval.end;
+  const Frame& first = map.Find(views.front().keyframe)->frame;
+  line.descriptor = first.features().lines[views.front().feature].descriptor;
   line.view_direction =
       (line.Interval().Midpoint() - Inverse(first.cam_from_world).translation).normalized();
   for (const LineViewOf& view : views) {

@@ -13,6 +13,7 @@
 namespace plumbline {
 
 class Map;
+struct LineInterval;
 
 // An observation of a line: keyframe and feature.
 struct LineViewOf {
@@ -34,5 +35,13 @@ std::optional<MapLine> LineFromViews(const Map& map,
 std::optional<MapLine> CheckedLineFromViews(const Map& map,
                                             const RectifiedCamera& camera,
                                             const std::vector<LineViewOf>& views);
+
+// Makes a map line of a piece of a line that views show, with what follows from them: observations,
+// information, looks and viewing direction. Neither id nor creator are set.
+MapLine MapLineFrom(const Map& map,
+                    const RectifiedCamera& camera,
+                    const std::vector<LineViewOf>& views,
+                    const PluckerLine& line,
+                    const LineInterval& interval);
 
 }  // namespace plumbline

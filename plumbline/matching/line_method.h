@@ -22,7 +22,7 @@ enum class LineParametrization {
   kPlucker,  // orthonormal form of the Plücker coordinates, 4 parameters
   // Orthonormal form turned about the axes of the frame: U <- Exp(theta) U, as PPL-SLAM does.
   kPluckerLeft,
-  // Two points, 6 parameters; two of these are fixed, because no image determines them.
+  // Two points, 6 parameters. Those along the line are free: no image determines them.
   kEndpoints,
 };
 
@@ -83,6 +83,9 @@ struct LineMethod {
   LineParametrization parametrization = LineParametrization::kPlucker;
   LineResidualKind residual = LineResidualKind::kObservedEnds;
   LineReconstruction reconstruction = LineReconstruction::kNView;
+  // True if the ends of a line are its parameters: adjustments get them (BaProblem::line_ends) and
+  // move them, and nothing cuts them to what a view shows.
+  bool keeps_ends = false;
 
   // Makes a line from all keyframes that seem to show it, two or more. If more than two give no
   // line, it is called with pairs of them.

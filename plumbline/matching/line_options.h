@@ -31,7 +31,7 @@ void VisitFields(Visitor&& visit, LineOptions& o) {
         "of a line in bundle adjustment: plucker (orthonormal form, 4 parameters); to compare "
         "with, in "
         "builds with the laboratory: plucker_left (the same, turned about the axes of the frame), "
-        "endpoints (two points, 6)");
+        "endpoints (two points, 6, which are the ends of the line from its creation on)");
   visit("residual",
         o.residual,
         "observed_ends: distances of the measured end points from the projected line; "

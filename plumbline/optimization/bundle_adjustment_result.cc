@@ -12,6 +12,7 @@ BaResult InitialState(const BaProblem& problem) {
   for (const auto& pose : problem.poses) state.poses.push_back(pose.cam_from_world);
   state.points = problem.points;
   state.lines = problem.lines;
+  state.line_ends = problem.line_ends;
   state.point_inliers.assign(problem.point_observations.size(), true);
   state.line_inliers.assign(problem.line_observations.size(), true);
   return state;

@@ -66,6 +66,7 @@ struct BaResult {
   std::vector<Rigid3> poses;  // cam_from_world; fixed poses are copied bit by bit
   std::vector<Eigen::Vector3d> points;
   std::vector<OrthonormalLine> lines;
+  std::vector<Segment3> line_ends;  // moved, on the lines; empty if the problem has none
   // One entry per observation: false if chi2 exceeds its limit at the end, or if the point lies
   // behind the camera (chi2 is then infinite).
   std::vector<bool> point_inliers;

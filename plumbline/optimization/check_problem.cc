@@ -35,6 +35,8 @@ void CheckIndices(int pose, int landmark, std::size_t poses, std::size_t landmar
 }  // namespace
 
 void CheckIndices(const BaProblem& problem) {
+  PLUMBLINE_CHECK(problem.line_ends.empty() || problem.line_ends.size() == problem.lines.size(),
+                  "ends for all lines or for none");
   for (const auto& o : problem.point_observations) {
     CheckIndices(o.pose, o.point, problem.poses.size(), problem.points.size());
   }
@@ -55,6 +57,8 @@ bool IsFinite(const BaProblem& problem) {
          all(problem.points, [](const auto& x) { return x.allFinite(); }) &&
          all(problem.lines,
              [](const auto& x) { return x.U.coeffs().allFinite() && x.w.allFinite(); }) &&
+         all(problem.line_ends,
+             [](const auto& x) { return x.start.allFinite() && x.end.allFinite(); }) &&
          all(problem.point_observations, [](const auto& x) { return IsFinite(x.measurement); }) &&
          all(problem.line_observations, [](const auto& x) { return IsFinite(x.measurement); }) &&
          all(problem.axes, [](const auto& x) { return x.allFinite(); }) &&

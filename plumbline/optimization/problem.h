@@ -67,6 +67,8 @@ struct BaProblem {
   std::vector<Pose> poses;
   std::vector<Eigen::Vector3d> points;  // in the world
   std::vector<OrthonormalLine> lines;   // in the world
+  // The two ends of each line, in the world, for solvers whose lines are two points; else empty.
+  std::vector<Segment3> line_ends;
   std::vector<PointObservation> point_observations;
   std::vector<LineObservation> line_observations;
   std::vector<Eigen::Vector3d> axes;  // constant unit vectors in the world

@@ -34,6 +34,7 @@ BaProblem Scene() {
   }
   const Eigen::Vector3d direction = Eigen::Vector3d(1, 2, 3).normalized();
   problem.lines.push_back(ToOrthonormal({problem.points[0].cross(direction), direction}));
+  problem.line_ends.push_back({problem.points[0], problem.points[0] + direction});
   return problem;
 }
 
@@ -49,6 +50,9 @@ BaResult Enlarged(const BaProblem& problem, double factor) {
   for (auto& point : result.points) point = centre + factor * (point - centre);
   const Eigen::Vector3d direction = ToPlucker(problem.lines[0]).direction;
   result.lines[0] = ToOrthonormal({result.points[0].cross(direction), direction});
+  for (Segment3& ends : result.line_ends) {
+    ends = {centre + factor * (ends.start - centre), centre + factor * (ends.end - centre)};
+  }
   return result;
 }
 
@@ -77,6 +81,7 @@ TEST(UnitOfLength, PlaceOfAPoseIsKeptWithAllTheRest) {
   }
   const auto expected = problem.lines[0].Homogeneous();
   EXPECT_LT((result.lines[0].Homogeneous() - expected).norm(), 1e-9);
+  EXPECT_LT((result.line_ends[0].end - problem.line_ends[0].end).norm(), 1e-9);
   BaProblem pair = problem;
   pair.camera.baseline = 0.1;
   BaResult measured = Enlarged(problem, 1.7);

@@ -27,6 +27,14 @@ TEST(CheckIndices, RefusesObservationsOfWhatIsNotThere) {
   EXPECT_THROW(CheckIndices(problem), BugError);
 }
 
+TEST(CheckIndices, RefusesEndsOfOnlySomeLines) {
+  BaProblem problem = SmallProblem();
+  problem.line_ends.resize(problem.lines.size());
+  EXPECT_NO_THROW(CheckIndices(problem));
+  problem.line_ends.pop_back();
+  EXPECT_THROW(CheckIndices(problem), BugError);
+}
+
 TEST(CheckIndices, RefusesAxesThatCannotBeUsed) {
   BaProblem problem = SmallProblem();
   problem.axes = {Eigen::Vector3d::UnitY()};
@@ -49,6 +57,9 @@ TEST(IsFinite, LooksAtPosesLandmarksAndMeasurements) {
   EXPECT_FALSE(IsFinite(problem));
   problem = SmallProblem();
   problem.lines[0].w.x() = kNan;
+  EXPECT_FALSE(IsFinite(problem));
+  problem = SmallProblem();
+  problem.line_ends = {{Eigen::Vector3d::Constant(kNan), Eigen::Vector3d::Zero()}};
   EXPECT_FALSE(IsFinite(problem));
   problem = SmallProblem();
   problem.point_observations[0].measurement.disparity = Disparity{1, kNan};

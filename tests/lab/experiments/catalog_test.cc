@@ -22,6 +22,7 @@
 namespace plumbline {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Pair;
@@ -70,6 +71,16 @@ TEST(Catalog, FindsByNameAndTellsWhatThereIs) {
   EXPECT_EQ(FindExperiment("sensors").variants.size(), 3U);
   EXPECT_THAT(MessageOf([] { FindExperiment("sensor"); }),
               HasSubstr("no experiment 'sensor'; there are: sensors"));
+}
+
+// Not all kinds can be held parallel to others, so that none is where kinds are compared.
+TEST(Catalog, KindsOfLinesDifferInNothingElse) {
+  for (const char* name : {"lines", "lines_mono", "line_controls", "line_controls_mono"}) {
+    for (const Variant& variant : FindExperiment(name).variants) {
+      EXPECT_THAT(variant.settings, Contains("mapping.window.parallel_lines=false"))
+          << name << " " << variant.name;
+    }
+  }
 }
 
 TEST(Catalog, CuttingHasEverySettingOfThePaperTwiceSharpAndBlurred) {

@@ -89,6 +89,8 @@ TEST(PaperCatalog, TheSystemsOfTable2DifferInAllThatMakesThem) {
   for (const SlamOptions* options : {&rippl, &epl, &ppl}) {
     EXPECT_EQ(options->features.point_count, 500);
     EXPECT_EQ(options->features.line_count, 300);
+    EXPECT_FALSE(options->mapping.window.parallel_lines);
+    EXPECT_EQ(options->lines.weighting, rippl.lines.weighting);
   }
 }
 

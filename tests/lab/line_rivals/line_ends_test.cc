@@ -64,6 +64,23 @@ TEST(TrimmedEnds, WithoutAUsableObservationLieAroundTheFoot) {
   EXPECT_LT((ends.Midpoint() - line.Foot()).norm(), 1e-9);
 }
 
+TEST(EndsOf, AreThoseOfTheProblemWhereItHasAny) {
+  BaProblem problem = OneLine();
+  problem.line_observations = {Observe(problem, 0, kSegment)};
+  EXPECT_LT((EndsOf(problem).front().start - kSegment.start).norm(), 1e-9);
+  const Segment3 pulled{kSegment.start, kSegment.end + 2 * kSegment.Direction()};
+  problem.line_ends = {pulled};
+  EXPECT_EQ(EndsOf(problem).front().end, pulled.end);
+}
+
+TEST(EndsOfLines, StayWhereTheMovedOnesMakeNoLine) {
+  const Segment3 moved{{0, 0, 4}, {1, 0, 4}};
+  const Segment3 point{{1, 2, 3}, {1, 2, 3}};
+  const std::vector<Segment3> ends = EndsOfLines({kSegment, kSegment}, {moved, point});
+  EXPECT_EQ(ends[0].end, moved.end);
+  EXPECT_EQ(ends[1].end, kSegment.end);
+}
+
 TEST(LinesThroughEnds, KeepsUnmovedLinesBitByBit) {
   const BaProblem problem = OneLine();
   const std::vector<Segment3> before{kSegment};

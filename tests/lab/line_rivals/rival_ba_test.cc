@@ -9,6 +9,7 @@
 
 #include "tests/optimization/ba_properties.h"
 #include "tests/optimization/ba_scene.h"
+#include <cmath>
 #include <set>
 #include <utility>
 #include <vector>
@@ -124,6 +125,83 @@ TEST(SolveRivalBa, EndPointsReachTheMinimumOfPluckerLines) {
       EXPECT_GT(a.direction.dot(b.direction), 0.99) << seed << " " << i;
     }
   }
+}
+
+// Ends of lines, each pulled out by a third of their length.
+std::vector<Segment3> PulledEnds(const BaProblem& problem) {
+  std::vector<Segment3> ends = TrimmedEnds(problem);
+  for (Segment3& e : ends) {
+    const Eigen::Vector3d pull = (e.end - e.start) / 3;
+    e = {e.start - pull, e.end + pull};
+  }
+  return ends;
+}
+
+// How far ends were pulled out along a line, in parts of the length that the line has in view.
+double Pulled(const Segment3& ends, const Segment3& in_view) {
+  const Eigen::Vector3d along = in_view.Direction();
+  const double out = along.dot(ends.end - in_view.end) - along.dot(ends.start - in_view.start);
+  return out / (2 * in_view.Length());
+}
+
+TEST(SolveRivalBa, EndsThatWerePulledAlongTheirLineStayThere) {
+  for (const RivalLines& lines : {kEnds, kProjectedPoints}) {
+    for (const bool diagonal : {true, false}) {
+      const BaScene scene = MakeBaScene(3, {.sigma = 0.1, .perturbation = 0.02});
+      BaProblem problem = scene.problem;
+      for (auto& o : problem.line_observations) {
+        if (!diagonal) o.measurement.covariance << 0.01, 0.001, 0.001, 0.01;
+      }
+      const std::vector<Segment3> in_view = TrimmedEnds(scene.truth);
+      problem.line_ends = PulledEnds(problem);
+      const BaResult result = SolveRivalBa(problem, {}, lines);
+      ASSERT_EQ(result.line_ends.size(), problem.lines.size());
+      int moved = 0;
+      for (std::size_t i = 0; i < result.line_ends.size(); ++i) {
+        const Segment3& ends = result.line_ends[i];
+        moved += ends.start != problem.line_ends[i].start;
+        EXPECT_NEAR(Pulled(ends, in_view[i]), 1.0 / 3, 0.15) << i;
+        const PluckerLine line = ToPlucker(result.lines[i]);
+        EXPECT_LT(line.DistanceTo(ends.start) + line.DistanceTo(ends.end), 1e-6) << i;
+      }
+      EXPECT_EQ(moved, static_cast<int>(problem.lines.size()));
+      EXPECT_LT(LargestPoseError(result, scene.truth), 0.01);
+    }
+  }
+}
+
+// Nothing takes ends back, and nothing holds them: where they may go on, they drift.
+TEST(SolveRivalBa, ProjectedEndsDriftFromAdjustmentToAdjustment) {
+  const BaScene scene = MakeBaScene(3, {.lines = 30, .sigma = 1, .perturbation = 0.02});
+  BaProblem problem = scene.problem;
+  const std::vector<Segment3> in_view = TrimmedEnds(scene.truth);
+  problem.line_ends = TrimmedEnds(problem);
+  const auto mean_slide = [&] {
+    double sum = 0;
+    for (std::size_t i = 0; i < in_view.size(); ++i) {
+      sum += std::abs(Pulled(problem.line_ends[i], in_view[i]));
+    }
+    return sum / static_cast<double>(in_view.size());
+  };
+  std::vector<double> slides{mean_slide()};
+  for (int k = 0; k < 3; ++k) {
+    for (int adjustment = 0; adjustment < 10; ++adjustment) {
+      BaResult result = SolveRivalBa(problem, {}, kProjectedPoints);
+      problem.lines = result.lines;
+      problem.line_ends = result.line_ends;
+    }
+    slides.push_back(mean_slide());
+  }
+  for (std::size_t k = 1; k < slides.size(); ++k) EXPECT_GT(slides[k], 1.02 * slides[k - 1]) << k;
+}
+
+// Lines of four parameters have no ends that could stay.
+TEST(SolveRivalBa, OnlyEndPointsGiveEndsBack) {
+  BaProblem problem = MakeBaScene(3, {}).problem;
+  problem.line_ends = PulledEnds(problem);
+  EXPECT_TRUE(SolveRivalBa(problem, {}, kLeft).line_ends.empty());
+  EXPECT_TRUE(SolveRivalBa(problem, {}, kProjected).line_ends.empty());
+  EXPECT_TRUE(SolveLocalBa(problem).line_ends.empty());
 }
 
 // A 6 x 6 block in place of one of 6 x 4 for each free pose that sees a line.

@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/mapping/landmark_creation.h"
 #include "plumbline/mapping/local_ba_window.h"
+#include "plumbline/mapping/outlier_removal.h"
 #include "plumbline/slam/options.h"
 
 #include "tests/support/synthetic_run.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -92,6 +94,84 @@ TEST(MethodFor, CompletesWindowsForProjectedEnds) {
   EXPECT_NE(method.adjust_window(projected, {}, {}).termination, BaTermination::kNotFinite);
   // At the end of a run the residual is that of the observed ends.
   EXPECT_NO_THROW(method.adjust_map(observed, {}, {}));
+}
+
+// A map with one line pulled out along itself by twice its length, and the line's length then.
+struct PulledLine {
+  Map map;
+  LineId id;
+  double length = 0;
+
+  double Length() const {
+    const MapLine& line = *map.Find(id);
+    return line.end - line.start;
+  }
+};
+
+PulledLine PullALine(const SyntheticWorld& world) {
+  TrueMap scene = MakeTrueMap(
+      world, {PoseOnPath(0), PoseOnPath(8), PoseOnPath(16), PoseOnPath(24)}, {.noise = 0.3});
+  PulledLine pulled;
+  for (const auto& [id, line] : scene.map.lines()) {
+    if (line.observations.size() == 4) pulled.id = id;
+  }
+  const MapLine line = *scene.map.Find(pulled.id);
+  const double end = line.end + 2 * (line.end - line.start);
+  scene.map.Apply({edit::MoveLine{line.id, line.line, line.start, end, line.information}});
+  pulled.map = std::move(scene.map);
+  pulled.length = end - line.start;
+  return pulled;
+}
+
+// The ends come from the map into the adjustment and go back from it into the map; nothing cuts
+// them to what a view shows, neither there nor when the run ends.
+TEST(MethodFor, EndsPulledAlongTheirLineStayThereInTheMap) {
+  const SyntheticWorld world = MakeSyntheticWorld(300, 40);
+  for (const auto residual : kResiduals) {
+    for (const auto parametrization : kParametrizations) {
+      PulledLine pulled = PullALine(world);
+      LineOptions lines{.parametrization = parametrization, .residual = residual};
+      lines.method = MethodFor(lines);
+      for (int round = 0; round < 2; ++round) {
+        const LocalBaWindow window =
+            MakeLocalBaWindow(pulled.map, world.Imaging(), KeyFrameId{3}, lines, {});
+        ASSERT_NE(std::find(window.lines.begin(), window.lines.end(), pulled.id),
+                  window.lines.end());
+        const BaResult result = lines.method.adjust_window(window.problem, {}, {});
+        pulled.map.Apply(ToEdit(pulled.map, world.Imaging(), window, result));
+      }
+      const double length = pulled.Length();
+      if (parametrization == LineParametrization::kEndpoints) {
+        EXPECT_NEAR(length, pulled.length, 0.2 * pulled.length);
+      } else {
+        EXPECT_LT(length, 0.5 * pulled.length) << "the rest is not in view";
+      }
+    }
+  }
+}
+
+TEST(MethodFor, RemovingOutliersLeavesEndsWhereTheyAre) {
+  const SyntheticWorld world = MakeSyntheticWorld(300, 40);
+  for (const auto parametrization : kParametrizations) {
+    PulledLine pulled = PullALine(world);
+    LineOptions lines{.parametrization = parametrization};
+    lines.method = MethodFor(lines);
+    // One view now shows another line.
+    const KeyFrameId wrong{1};
+    const int seen = pulled.map.Find(pulled.id)->observations.at(wrong);
+    const auto& shown = pulled.map.Find(wrong)->frame.lines;
+    const int other = seen == 0 ? 1 : 0;
+    pulled.map.Apply({edit::RemoveLine{shown[static_cast<std::size_t>(other)]},
+                      edit::RemoveLineObservation{pulled.id, wrong},
+                      edit::AddLineObservation{pulled.id, wrong, other}});
+    pulled.map.Apply(RemoveOutliers(pulled.map, world.Imaging(), lines));
+    ASSERT_FALSE(pulled.map.Find(pulled.id)->observations.contains(wrong));
+    if (parametrization == LineParametrization::kEndpoints) {
+      EXPECT_NEAR(pulled.Length(), pulled.length, 0.05 * pulled.length);
+    } else {
+      EXPECT_LT(pulled.Length(), 0.5 * pulled.length);
+    }
+  }
 }
 
 TEST(MethodFor, FollowsASmoothPathByEachKindOfLine) {
