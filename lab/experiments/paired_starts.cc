@@ -19,7 +19,7 @@ namespace plumbline {
 namespace {
 
 constexpr double kPercent = 100;
-constexpr const char* kAllPlaces = "all places";
+constexpr const char* kAllPlaces = "all_places";
 
 bool IsRight(const StartRecord& start) { return start.outcome == StartOutcome::kRight; }
 
@@ -105,7 +105,7 @@ std::vector<PairedStarts> PairStarts(const Plan& plan, const StartsByJob& starts
   std::vector<PairedStarts> pairs;
   for (std::size_t v = 0; v < plan.experiment.variants.size(); ++v) {
     const auto reference = ReferenceOf(plan, v);
-    if (!reference || *reference == v) continue;
+    if (!reference) continue;
     PairedStarts all;
     all.variant = v;
     std::map<std::string, std::vector<double>> gains;  // by place
@@ -135,6 +135,13 @@ std::vector<FigureRow> FiguresOfPairs(const Plan& plan, const std::vector<Paired
                       value,
                       unit});
     };
+    if (!p.sequence) {
+      add("right", p.right);
+      if (p.possible) add("possible", *p.possible);
+      add("late", p.late);
+      add("waiting", p.waiting);
+      add("wrong", p.wrong);
+    }
     add("right_alone", p.right_alone);
     add("reference_right_alone", p.reference_alone);
     add("sign_test_p", std::round(1e4 * p.p) / 1e4);

@@ -38,11 +38,13 @@ struct PairedStarts {
 // (McNemar's test of discordant pairs); 1 without any.
 double SignTestP(int a, int b);
 
-// The starts of each variant that has a reference and is not its own: by sequence, then over all.
+// The starts of each variant that has a reference, and of those that are one: by sequence, then
+// over all.
 std::vector<PairedStarts> PairStarts(const Plan& plan, const StartsByJob& starts);
 
 // Rows of the list of results: the metrics right_alone, reference_right_alone, sign_test_p, gain,
-// gain_low, gain_high; the sequence of those over all is "all places", and there is no seed.
+// gain_low, gain_high, and over all also right, possible, late, waiting, wrong. The sequence of
+// those over all is "all_places"; there is no seed.
 std::vector<FigureRow> FiguresOfPairs(const Plan& plan, const std::vector<PairedStarts>& pairs);
 
 // A table of them: the rows of its cells, the first one being the heads of the columns.

@@ -112,15 +112,18 @@ Job MakeJob(const ExperimentSequence& sequence,
   return job;
 }
 
+// The number of an argument of a job, "--to 100"; nullopt where the job has none.
+std::optional<double> NumberOf(const Job& job, const char* argument) {
+  const auto at = std::find(job.command.begin(), job.command.end(), argument);
+  if (at == job.command.end() || at + 1 == job.command.end()) return std::nullopt;
+  return std::stod(*(at + 1));
+}
+
 // Of the frames of the sequence those that a job reads.
 double FramesOf(const Job& job, double frames) {
-  const auto value = [&](const char* name) -> std::optional<double> {
-    const auto at = std::find(job.command.begin(), job.command.end(), name);
-    if (at == job.command.end() || at + 1 == job.command.end()) return std::nullopt;
-    return std::stod(*(at + 1));
-  };
-  const double end = std::min(frames, value("--to").value_or(frames));
-  return std::max(0.0, end - value("--from").value_or(0)) / value("--stride").value_or(1);
+  const double end = std::min(frames, NumberOf(job, "--to").value_or(frames));
+  const double begin = NumberOf(job, "--from").value_or(0);
+  return std::max(0.0, end - begin) / NumberOf(job, "--stride").value_or(1);
 }
 
 [[noreturn]] void FailNothing(const Plan& plan, const PlanRequest& request) {
@@ -213,12 +216,13 @@ Plan MakePlan(const ComputedExperiment& experiment,
 double EstimatedSeconds(const Plan& plan, const Job& job) {
   // Measured on two cores, see docs/experiments.md.
   constexpr double kStart = 0.5, kFrame = 0.015, kMegapixel = 0.08, kOfUnknown = 300;
-  constexpr double kStartsFactor = 6;
+  constexpr double kStartsFactor = 6, kStartEvery = 5;
   if (job.computed) return job.computing_s;
   const ExperimentSequence& sequence = plan.SequenceOf(job);
   const double frames = sequence.frames > 0 ? static_cast<double>(sequence.frames) : kOfUnknown;
   const bool starts = plan.experiment.command == RunCommandKind::kStarts;
-  return kStart + (starts ? kStartsFactor : 1) * FramesOf(job, frames) *
+  const double every = NumberOf(job, "--every").value_or(kStartEvery);
+  return kStart + (starts ? kStartsFactor * kStartEvery / every : 1) * FramesOf(job, frames) *
                       (kFrame + kMegapixel * sequence.megapixels);
 }
 

@@ -6,6 +6,7 @@
 
 #include "tests/io/scratch_folder.h"
 #include "tests/lab/experiments/start_fixtures.h"
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,9 +53,10 @@ TEST(PairStarts, CountTheStartsThatOneOfTwoMakesRight) {
                                  Starts({kRight, kWaiting, kRight, kLate}),
                                  Starts({kRight, kRight}),
                                  Starts({kWrong, kWrong})});
-  ASSERT_EQ(pairs.size(), 3U)
-      << "two sequences and both; the reference is not compared with itself";
-  const PairedStarts &a = pairs[0], &all = pairs[2];
+  ASSERT_EQ(pairs.size(), 6U) << "of each variant two sequences and both";
+  EXPECT_EQ(pairs[2].right, 4) << "of the reference";
+  EXPECT_EQ(pairs[2].right_alone + pairs[2].reference_alone, 0);
+  const PairedStarts &a = pairs[3], &all = pairs[5];
   EXPECT_EQ(a.variant, 1U);
   EXPECT_EQ(a.sequence, 0U);
   EXPECT_EQ(a.starts, 4);
@@ -85,15 +87,15 @@ TEST(PairStarts, ImpossibleOnesCountOnlyWhereTheyAreWrong) {
                                  Starts({kWaiting, kWrong}, 1),
                                  Starts({kWaiting}, std::nullopt),
                                  Starts({kRight}, std::nullopt)});
-  ASSERT_EQ(pairs.size(), 3U);
-  EXPECT_EQ(pairs[0].possible, 0);
-  EXPECT_EQ(pairs[0].wrong, 1);
-  EXPECT_EQ(pairs[0].waiting, 0);
-  EXPECT_EQ(pairs[0].reference_alone, 0);
-  EXPECT_FALSE(pairs[0].gain);
-  EXPECT_FALSE(pairs[1].possible) << "not known";
-  EXPECT_EQ(pairs[1].right_alone, 1);
-  EXPECT_EQ(pairs[1].gain, 100);
+  ASSERT_EQ(pairs.size(), 6U);
+  EXPECT_EQ(pairs[3].possible, 0);
+  EXPECT_EQ(pairs[3].wrong, 1);
+  EXPECT_EQ(pairs[3].waiting, 0);
+  EXPECT_EQ(pairs[3].reference_alone, 0);
+  EXPECT_FALSE(pairs[3].gain);
+  EXPECT_FALSE(pairs[4].possible) << "not known";
+  EXPECT_EQ(pairs[4].right_alone, 1);
+  EXPECT_EQ(pairs[4].gain, 100);
 }
 
 TEST(PairStarts, AVariantMayHaveAReferenceOfItsOwn) {
@@ -103,7 +105,7 @@ TEST(PairStarts, AVariantMayHaveAReferenceOfItsOwn) {
   plan.experiment.variants[0].reference = "two";
   const auto pairs = PairStarts(
       plan, {Starts({kRight}), Starts({kWaiting}), Starts({kRight}), Starts({kWaiting})});
-  ASSERT_EQ(pairs.size(), 3U);
+  ASSERT_EQ(pairs.size(), 3U) << "the other one has none";
   EXPECT_EQ(pairs.back().variant, 0U);
   EXPECT_EQ(pairs.back().right_alone, 2);
   EXPECT_THAT(FormatPairs(plan, pairs), HasSubstr("| one / two | all 2 places | 2 / 2 |"));
@@ -130,14 +132,17 @@ TEST(PairStarts, StandInTheTableThePageAndTheList) {
               HasSubstr("| two | euroc/a | 1 / 2 | 0 | 0 | 1 | 0 | 1 | 1 | -50.0 |"));
   EXPECT_THAT(Contents(folder / "out/table.html"),
               HasSubstr("<td>all 2 places</td><td>1 / 3</td>"));
-  double alone = -1;
+  std::map<std::string, double> over_all;
   for (const auto& figure : nlohmann::json::parse(Contents(folder / "out/results.json"))) {
-    if (figure["metric"] != "reference_right_alone") continue;
-    EXPECT_EQ(figure["variant"], "two");
+    if (figure["sequence"] != "all_places" || figure["variant"] != "two") continue;
     EXPECT_TRUE(figure["seed"].is_null());
-    if (figure["sequence"] == "all places") alone = figure["value"];
+    over_all[figure["metric"]] = figure["value"];
   }
-  EXPECT_EQ(alone, 2);
+  EXPECT_EQ(over_all["right"], 1);
+  EXPECT_EQ(over_all["possible"], 3);
+  EXPECT_EQ(over_all["waiting"], 1);
+  EXPECT_EQ(over_all["wrong"], 1);
+  EXPECT_EQ(over_all["reference_right_alone"], 2);
 }
 
 }  // namespace paired_starts_test

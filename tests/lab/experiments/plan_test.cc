@@ -154,6 +154,20 @@ TEST(Plan, AtTestSizeThereAreFewerRunsAndFurtherArguments) {
   EXPECT_LT(EstimatedSeconds(test, test.jobs[0]), EstimatedSeconds(full, full.jobs[0]));
 }
 
+TEST(Plan, FewerStartsAreEstimatedToTakeLess) {
+  const ScratchFolder folder;
+  WriteSequenceFolder(folder, "data/euroc/a");
+  Experiment experiment = TwoVariants();
+  experiment.command = RunCommandKind::kStarts;
+  const Plan all = MakePlan(experiment, RequestIn(folder));
+  experiment.test_arguments = {"--every", "10"};
+  const Plan half = MakePlan(experiment, RequestIn(folder));
+  const double start = 0.5;  // of the program
+  EXPECT_NEAR(EstimatedSeconds(half, half.jobs[0]) - start,
+              0.5 * (EstimatedSeconds(all, all.jobs[0]) - start),
+              1e-9);
+}
+
 TEST(Plan, WhatComputesByItselfIsOneJobDoneWhileItsResultIsThere) {
   const ScratchFolder folder;
   const ComputedExperiment& experiment = *FindComputedExperiment("cutting-testbed");
