@@ -26,9 +26,8 @@ bool IsRight(const StartRecord& start) { return start.outcome == StartOutcome::k
 void Count(const StartRecord& start, const StartRecord& reference, PairedStarts& out) {
   ++out.starts;
   out.wrong += start.outcome == StartOutcome::kWrong;
-  const auto possible = IsPossible(start);
-  if (possible) out.possible = out.possible.value_or(0) + *possible;
-  if (!possible.value_or(true)) return;
+  if (!IsPossible(start).value_or(true)) return;
+  ++out.possible;
   out.right += IsRight(start);
   out.late += start.outcome == StartOutcome::kLate;
   out.waiting += start.outcome == StartOutcome::kWaiting;
@@ -38,7 +37,7 @@ void Count(const StartRecord& start, const StartRecord& reference, PairedStarts&
 
 void Add(const PairedStarts& one, PairedStarts& all) {
   all.starts += one.starts;
-  if (one.possible) all.possible = all.possible.value_or(0) + *one.possible;
+  all.possible += one.possible;
   all.right += one.right;
   all.late += one.late;
   all.waiting += one.waiting;
@@ -56,7 +55,6 @@ PairedStarts PairsOf(const Plan& plan,
   PairedStarts out;
   out.sequence = sequence;
   out.variant = variant;
-  int countable = 0;  // not known to be impossible
   for (std::size_t a = 0; a < plan.jobs.size(); ++a) {
     if (plan.jobs[a].sequence != sequence || plan.jobs[a].variant != variant) continue;
     for (std::size_t b = 0; b < plan.jobs.size(); ++b) {
@@ -65,12 +63,13 @@ PairedStarts PairsOf(const Plan& plan,
       if (other.run != plan.jobs[a].run) continue;
       for (const auto& [start, of_reference] : CommonStarts(starts[a], starts[b])) {
         Count(*start, *of_reference, out);
-        countable += IsPossible(*start).value_or(true);
       }
     }
   }
   out.p = SignTestP(out.right_alone, out.reference_alone);
-  if (countable > 0) out.gain = kPercent * (out.right_alone - out.reference_alone) / countable;
+  if (out.possible > 0) {
+    out.gain = kPercent * (out.right_alone - out.reference_alone) / out.possible;
+  }
   return out;
 }
 
@@ -137,7 +136,7 @@ std::vector<FigureRow> FiguresOfPairs(const Plan& plan, const std::vector<Paired
     };
     if (!p.sequence) {
       add("right", p.right);
-      if (p.possible) add("possible", *p.possible);
+      add("possible_or_unknown", p.possible);
       add("late", p.late);
       add("waiting", p.waiting);
       add("wrong", p.wrong);
@@ -169,7 +168,7 @@ std::vector<std::vector<std::string>> CellsOfPairs(const Plan& plan,
     rows.push_back(
         {ComparedName(plan, p.variant),
          p.sequence ? plan.sequences[*p.sequence].name : fmt::format("all {} places", p.places),
-         fmt::format("{} / {}", p.right, p.possible ? std::to_string(*p.possible) : "-"),
+         fmt::format("{} / {}", p.right, p.possible),
          std::to_string(p.late),
          std::to_string(p.wrong),
          std::to_string(p.waiting),
@@ -186,7 +185,7 @@ std::string PairsNote() {
          "and within all limits where the reference is not; p: of the exact sign test of the two "
          "columns before it, which takes starts for independent; points: by how much more starts "
          "are right than with the reference, over all with a 95 % interval by Student's t over "
-         "places. Starts whose truth is not known count as if they were possible.";
+         "places. Possible are starts that are not known to be impossible.";
 }
 
 std::string FormatPairs(const Plan& plan, const std::vector<PairedStarts>& pairs) {

@@ -18,9 +18,9 @@ namespace plumbline {
 struct PairedStarts {
   std::optional<std::size_t> sequence;  // in the plan; nullopt: all
   std::size_t variant = 0;
-  int starts = 0;                 // that both tried
-  std::optional<int> possible{};  // of these (IsPossible); nullopt: known of none
-  // Of the variant, among the starts that are not known to be impossible; wrong ones among all.
+  int starts = 0;    // that both tried
+  int possible = 0;  // of these, those that are not known to be impossible (IsPossible)
+  // Of the variant, among the possible ones; wrong ones among all.
   int right = 0, late = 0, waiting = 0, wrong = 0;
   // Right ones where the reference has none, and the reverse.
   int right_alone = 0, reference_alone = 0;
@@ -43,8 +43,8 @@ double SignTestP(int a, int b);
 std::vector<PairedStarts> PairStarts(const Plan& plan, const StartsByJob& starts);
 
 // Rows of the list of results: the metrics right_alone, reference_right_alone, sign_test_p, gain,
-// gain_low, gain_high, and over all also right, possible, late, waiting, wrong. The sequence of
-// those over all is "all_places"; there is no seed.
+// gain_low, gain_high, and over all also right, possible_or_unknown, late, waiting, wrong. The
+// sequence of those over all is "all_places"; there is no seed.
 std::vector<FigureRow> FiguresOfPairs(const Plan& plan, const std::vector<PairedStarts>& pairs);
 
 // A table of them: the rows of its cells, the first one being the heads of the columns.
