@@ -280,12 +280,11 @@ def columns_of(name, metrics):
 
 # What is said below a table: of which figure of the runs it is, what is not there, what failed.
 def notes(name, table):
-    lines = ["", f"{table['centre'].capitalize()} (range) over the runs; runs with the same trajectory count once."]
-    for missing in table["missing"]:
-        pattern = missing.split(" ")[0]
-        lines.append(f"Not there: {missing}: `experiment {name} --full --only {pattern}`." if "(" in missing
-                     else f"Not there: {missing}.")
-    return lines + [f"{text[0].upper()}{text[1:]}." for text in table["failures"]]
+    lines = ["", f"- {table['centre'].capitalize()} (range) over the runs; runs with the same trajectory count once."]
+    missing = [re.sub(r"^\S+ \((.*); \S+\)$", r"\1", text) for text in table["missing"]]
+    if missing:
+        lines.append(f"- Not there: {', '.join(missing)}; `experiment {name} --full` runs them where `--data` has them.")
+    return lines + [f"- {text[0].upper()}{text[1:]}." for text in table["failures"]]
 
 
 def table_of_runs(name, metrics):

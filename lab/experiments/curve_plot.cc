@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
+#include <vector>
 
 namespace plumbline {
 namespace {
@@ -18,7 +20,23 @@ constexpr std::array<Figure::Color, 6> kColors = {
     {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
 constexpr double kLeft = 64, kTop = 64, kWidth = 620, kHeight = 240, kGap = 78, kLetter = 7.2;
 
-Figure::Color ColorOf(std::size_t curve) { return kColors[curve % kColors.size()]; }
+// The names of the curves of all panels, each once; a name has the same color in all of them.
+std::vector<std::string> NamesOfCurves(const std::vector<CurvePanel>& panels) {
+  std::vector<std::string> names;
+  for (const CurvePanel& panel : panels) {
+    for (const Curve& curve : panel.curves) {
+      if (std::find(names.begin(), names.end(), curve.name) == names.end()) {
+        names.push_back(curve.name);
+      }
+    }
+  }
+  return names;
+}
+
+Figure::Color ColorOf(const std::string& curve, const std::vector<std::string>& names) {
+  const auto at = std::find(names.begin(), names.end(), curve) - names.begin();
+  return kColors[static_cast<std::size_t>(at) % kColors.size()];
+}
 
 Eigen::AlignedBox2d RangeOf(const CurvePanel& panel) {
   Eigen::AlignedBox2d range(Vector2d::Zero());
@@ -45,16 +63,16 @@ void DrawCurve(
   if (line.points.size() > 1) figure.lines.push_back(std::move(line));
 }
 
-void DrawLegend(const std::vector<Curve>& curves, Figure& figure) {
+void DrawLegend(const std::vector<std::string>& names, Figure& figure) {
   double x = kLeft;
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    figure.lines.push_back({{{x, 24}, {x + 22, 24}}, ColorOf(c), 3});
+  for (const std::string& name : names) {
+    figure.lines.push_back({{{x, 24}, {x + 22, 24}}, ColorOf(name, names), 3});
     figure.texts.push_back({{x + 28, 24 + 0.35 * kFigureTextSize},
-                            curves[c].name,
+                            name,
                             kFigureTextSize,
                             Figure::Anchor::kStart,
                             kInk});
-    x += 52 + kLetter * static_cast<double>(curves[c].name.size());
+    x += 52 + kLetter * static_cast<double>(name.size());
   }
 }
 
@@ -67,6 +85,7 @@ bool IsEmpty(const CurvePanel& panel) {
 }  // namespace
 
 Figure CurvePlot(const std::vector<CurvePanel>& panels) {
+  const std::vector<std::string> names = NamesOfCurves(panels);
   Figure figure;
   figure.width = static_cast<int>(kLeft + kWidth + 30);
   double top = kTop;
@@ -81,12 +100,12 @@ Figure CurvePlot(const std::vector<CurvePanel>& panels) {
                       panel.label_y,
                       panel.title.empty() ? "" : ": " + panel.title};
     DrawPanel(frame, figure);
-    for (std::size_t c = 0; c < panel.curves.size(); ++c) {
-      DrawCurve(panel.curves[c], frame, panel.dots, ColorOf(c), figure);
+    for (const Curve& curve : panel.curves) {
+      DrawCurve(curve, frame, panel.dots, ColorOf(curve.name, names), figure);
     }
     top += kHeight + kGap;
   }
-  if (!panels.empty()) DrawLegend(panels.front().curves, figure);
+  if (!panels.empty()) DrawLegend(names, figure);
   figure.height = static_cast<int>(top);
   return figure;
 }

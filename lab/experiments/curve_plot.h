@@ -25,8 +25,8 @@ struct CurvePanel {
   double end_x = 0, end_y = 0;
 };
 
-// The panels below each other, with one legend: a curve of the same place in each panel has the
-// same colour, and its name from the first panel. Panels without any point are left out.
+// The panels below each other, with one legend: curves of the same name have the same colour.
+// Panels without any point are left out.
 Figure CurvePlot(const std::vector<CurvePanel>& panels);
 
 }  // namespace plumbline

@@ -251,7 +251,7 @@ Figure ConvergencePlot(const Plan& plan, const std::vector<JobResult>& results) 
                     error,
                     CurvesOf(plan, means, "frames/", by_number),
                     true});
-  panels.push_back({"(b), m = 3: proposed, without outlier rejection, conventional",
+  panels.push_back({"(b), m = 3",
                     "points in an image",
                     error,
                     CurvesOf(plan, means, "points/", by_number),

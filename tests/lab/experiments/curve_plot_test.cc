@@ -76,5 +76,16 @@ TEST(CurvePlot, PanelsStandBelowEachOtherAndEmptyOnesAreLeftOut) {
   EXPECT_EQ(curves[0].color.b, curves[1].color.b);
 }
 
+TEST(CurvePlot, CurvesOfOneNameHaveOneColorInAllPanels) {
+  CurvePanel first = Panel(), second = Panel();
+  second.curves = {{"three", first.curves[0].points}, {"one", first.curves[0].points}};
+  const Figure figure = CurvePlot({first, second});
+  const auto curves = CurvesOf(figure);
+  ASSERT_EQ(curves.size(), 3U);
+  EXPECT_EQ(curves[0].color.b, curves[2].color.b);
+  EXPECT_NE(curves[0].color.b, curves[1].color.b);
+  EXPECT_TRUE(Says(figure, "three")) << "the legend names the curves of all panels";
+}
+
 }  // namespace
 }  // namespace plumbline
