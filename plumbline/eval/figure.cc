@@ -6,6 +6,7 @@
 #include <iomanip>
 #include <locale>
 #include <sstream>
+#include <utility>
 
 namespace plumbline {
 namespace {
@@ -28,22 +29,34 @@ std::string Escape(const std::string& text) {
   return escaped;
 }
 
+bool HaveOneLook(const Figure::Polyline& a, const Figure::Polyline& b) {
+  return a.width == b.width && a.color.r == b.color.r && a.color.g == b.color.g &&
+         a.color.b == b.color.b;
+}
+
 }  // namespace
 
 std::string ToSvg(const Figure& figure) {
   std::ostringstream svg;
   svg.imbue(std::locale::classic());
-  svg << std::fixed << std::setprecision(2);
+  svg << std::fixed << std::setprecision(1);
   const auto color = [&svg](const Figure::Color& c) -> std::ostream& {
     return svg << "rgb(" << int{c.r} << ',' << int{c.g} << ',' << int{c.b} << ')';
   };
   svg << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << figure.width << "\" height=\""
       << figure.height << "\" viewBox=\"0 0 " << figure.width << ' ' << figure.height
       << "\" font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
-  for (const Figure::Polyline& line : figure.lines) {
-    svg << "<polyline fill=\"none\" stroke=\"";
-    color(line.color) << "\" stroke-width=\"" << line.width << "\" points=\"";
-    for (const Vector2d& p : line.points) svg << p.x() << ',' << p.y() << ' ';
+  // Lines of one look that follow each other are one path, which keeps files of thousands small.
+  for (std::size_t i = 0; i < figure.lines.size();) {
+    const Figure::Polyline& first = figure.lines[i];
+    svg << "<path fill=\"none\" stroke=\"";
+    color(first.color) << "\" stroke-width=\"" << first.width << "\" d=\"";
+    for (; i < figure.lines.size() && HaveOneLook(figure.lines[i], first); ++i) {
+      char command = 'M';
+      for (const Vector2d& p : figure.lines[i].points) {
+        svg << std::exchange(command, 'L') << p.x() << ',' << p.y();
+      }
+    }
     svg << "\"/>\n";
   }
   constexpr std::array kAnchors = {"start", "middle", "end"};
