@@ -174,6 +174,8 @@ Experiment RipplFigure7() {
   e.plots = {"success", "map_frames", "direction_error"};
   e.runs = 1;
   e.command = RunCommandKind::kStarts;
+  e.reference = "proposed";
+  e.ratios = {"rotation_error", "direction_error", "depth_error"};
   e.test_arguments = {"--every", "15"};
   e.pools = {{"plane", {"tum/*", "worlds/planar@*"}},
              {"forward", {"worlds/forward@*"}},

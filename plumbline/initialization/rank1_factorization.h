@@ -24,7 +24,8 @@ struct Rank1View {
 
 // Settings of FactorizeRank1.
 struct Rank1Options {
-  // Rounds of reweighting; 0: one plain factorization (Lee and Hwang, ICCV 2019, eq. 5).
+  // Rounds of alternation between centres and points, each with new robust weights (Lee and Hwang,
+  // ICCV 2019, eq. 5). 0: the singular vectors alone, in which unknown entries count as zero.
   int iterations = 5;
   // Rays nearer to the line of the centres than this [radians] say nothing about the length of the
   // motion.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -136,8 +137,13 @@ std::optional<Reconstruction> Factorize(const FeatureTracks& tracks,
                                         const FactorizationOptions& options) {
   std::vector<Rank1View> views;
   for (std::size_t i = 0; i < seen.size(); ++i) views.push_back(Rank1ViewOf(seen[i], poses[i]));
-  const auto factors =
-      FactorizeRank1(tracks.reference.points, views, {.iterations = options.reweighting});
+  Rank1Options rank1;
+  if (options.reweighting > 0) {
+    rank1.iterations = options.reweighting;
+  } else {
+    rank1.loss_width = std::numeric_limits<double>::infinity();  // every known entry counts in full
+  }
+  const auto factors = FactorizeRank1(tracks.reference.points, views, rank1);
   if (!factors || 2 * factors->in_front <= factors->solved) return std::nullopt;
   std::vector<Rigid3> solved = poses;
   for (std::size_t i = 0; i < poses.size(); ++i) {

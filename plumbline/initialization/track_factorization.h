@@ -19,7 +19,7 @@ struct FactorizationOptions {
   // Largest deviation of an interpolated place that is used [ideal image coordinates].
   double max_interpolation_sigma = 0.004;
   double min_line_angle = 0;  // least angle of the two epipolar lines, radians
-  int reweighting = 5;        // steps of reweighting; 0: a plain factorization
+  int reweighting = 5;        // steps of reweighting; 0: weighted least squares without a loss
 };
 
 // A start for a reconstruction: the pose of the newest frame and, where earlier tracks of the same

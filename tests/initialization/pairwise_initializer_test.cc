@@ -53,6 +53,17 @@ TEST(FactorizePairwise, FindsTheLengthsOfTranslations) {
   }
 }
 
+// Missing entries weigh nothing without the loss, too. In the singular vectors alone they would
+// count as zero, which shortens the way to a view that misses points.
+TEST(FactorizePairwise, MissingEntriesWeighNothingWithoutReweighting) {
+  const TrackScene scene = MakeTrackScene(2, CurvedMotion(3), {.points = 300, .missed = 0.5});
+  const auto poses = OfUnitLength(scene.truth.cam_from_reference);
+  const auto found =
+      FactorizePairwise(scene.tracks, poses, MissingPlaces::kLeaveOut, {.reweighting = 0});
+  ASSERT_TRUE(found);
+  ExpectTrueRatios(scene, found->reconstruction, 1e-3);
+}
+
 TEST(FactorizePairwise, ChainsLengthsWithoutFactorization) {
   const TrackScene scene = MakeTrackScene(2, CurvedMotion(3), {.points = 300, .missed = 0.5});
   const auto found = FactorizePairwise(scene.tracks,
