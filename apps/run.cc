@@ -8,7 +8,6 @@
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/open_dataset.h"
-#include "plumbline/io/reversed_dataset.h"
 #include "plumbline/live/live_source.h"
 #include "plumbline/live/open_live_source.h"
 #include "plumbline/recording/mcap_file_writer.h"
@@ -35,7 +34,6 @@
 #include <filesystem>
 #include <iostream>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <sstream>
@@ -78,7 +76,6 @@ CommandSyntax RunSyntax() {
        {"--from", "N", "first frame (default 0)"},
        {"--to", "N", "end before this frame (default: the end)"},
        {"--stride", "N", "every N-th frame (default 1)"},
-       {"--reverse", "", "play these frames from the last to the first"},
        {"--blur", "N", "N x N box filter on every input image (even N: shifted by half a pixel)"},
        {"--mode", "inline|lockstep|live", "how the stages run; wins over --set slam.mode"},
        {"--seed", "N", "of everything random; wins over --set slam.seed"},
@@ -92,7 +89,8 @@ CommandSyntax RunSyntax() {
        {"--record", "FILE.mcap", "write what viewers are sent into a file"},
        {"--quiet", "", "print nothing but errors"}},
       {{"--checkpoint", "--save-every SECONDS saves the map of a run that may be stopped"},
-       {"--resume", "--map FILE goes on in the map of an earlier run"}}};
+       {"--resume", "--map FILE goes on in the map of an earlier run"},
+       {"--reverse", "a data set that lists its images in the other order does the same"}}};
 }
 
 FrameSelection ReadRange(const CommandLine& line) {
@@ -199,7 +197,7 @@ DatasetOptions ReadDatasetOptions(const CommandLine& line) {
 }
 
 RunFrames OpenLive(const CommandLine& line, const RunSetup& setup) {
-  for (const char* option : {"--format", "--topic", "--ground-truth", "--reverse"}) {
+  for (const char* option : {"--format", "--topic", "--ground-truth"}) {
     if (line.Has(option)) {
       throw InputError(std::string(option) + ": expected a recording, found a live source");
     }
@@ -261,11 +259,6 @@ RunFrames OpenInput(const CommandLine& line, const RunSetup& setup) {
   input.save_every_s = setup.save_every_s;
   auto dataset = OpenRecorded(line);
   input.frames = ChooseFrames(line, *dataset);
-  if (line.Has("--reverse")) {
-    dataset = PlayedBackwards(std::move(dataset), std::move(input.frames));
-    input.frames.resize(dataset->size());
-    std::iota(input.frames.begin(), input.frames.end(), std::size_t{0});
-  }
   input.dataset = std::move(dataset);
   return input;
 }

@@ -66,7 +66,6 @@ class FrameFeed {
         folder_(folder),
         views_(views),
         progress_(input.live != nullptr ? std::nullopt : std::optional(input.frames.size()), quiet),
-        journal_(input.dataset->info().time_mirror_ns),
         saver_(input.save_every_s > 0
                    ? std::make_shared<MapSaver>(folder.part() / "map.plb", system.options().lines)
                    : nullptr),
@@ -182,7 +181,7 @@ class FrameFeed {
   void CheckPair(std::size_t position, const SensorFrame& frame) {
     const auto fault = pair_check_.Add(position, frame);
     if (!fault) return;
-    result_.notes.push_back(Describe(*fault, input_.dataset->info().time_mirror_ns.has_value()));
+    result_.notes.push_back(Describe(*fault));
     if (!quiet_) progress_.Say(result_.notes.back());
   }
 

@@ -50,14 +50,14 @@ class ResultWriter {
   ResultWriter(const FinishedRun& run, RunFolder& folder) : run_(run), folder_(folder) {}
 
   WrittenResults WriteAll() {
-    for (const RunFile& file : PoseFiles(run_.system, MirrorNs())) Write(file);
+    for (const RunFile& file : PoseFiles(run_.system)) Write(file);
     Write({"options.yaml",
            [&](const auto& path) { WriteFileAtomically(path, run_.description.options_yaml); }});
     Write(MapFile(run_.system));
     MakeLineMaps();
     NoteSignal();
     WriteSummary();
-    for (const RunFile& file : DerivedFiles(run_.system, MirrorNs())) Write(file);
+    for (const RunFile& file : DerivedFiles(run_.system)) Write(file);
     WriteReport();
     DrawViews();
     if (NoteSignal()) {  // it came after the summary was written
@@ -69,7 +69,6 @@ class ResultWriter {
   }
 
  private:
-  std::optional<std::int64_t> MirrorNs() const { return run_.dataset.info().time_mirror_ns; }
   static std::string NameOfView(std::size_t frame) {
     return fmt::format("overlay_{:06}.png", frame);
   }

@@ -130,7 +130,7 @@ MapEvents RunningSystem::Events() {
   if (!last_stamp_ns_) return {};
   if (!finished_) {
     pipeline_.Drain();
-    system_.Save();  // waits for mapping
+    system_.CopyMaps();  // waits for mapping
   }
   return system_.events();
 }

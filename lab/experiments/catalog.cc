@@ -437,7 +437,7 @@ Experiment RobustnessExperiment() {
   experiment.help = "recordings as they are, played backwards, with fewer images, and blurred";
   experiment.sequences = {{"euroc/*"}, {"kitti/*"}, {"tum/*"}, {"icl/*"}};
   experiment.variants = {{"as_recorded", {}},
-                         {"reversed", {}, {"--reverse"}},
+                         {.name = "reversed", .settings = {}, .reversed = true},
                          {"every_2nd", {}, {"--stride", "2"}},
                          {"every_3rd", {}, {"--stride", "3"}},
                          {"every_4th", {}, {"--stride", "4"}},

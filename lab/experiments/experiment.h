@@ -25,6 +25,7 @@ struct Variant {
   bool by_earlier = false;
   // The variant that this one is compared with in place of Experiment::reference.
   std::string reference = {};
+  bool reversed = false;  // plays the sequence from its last frame to its first
 };
 
 // Sequences to run, by name: FOLDER/NAME for what is found in a folder of the data (euroc, kitti,

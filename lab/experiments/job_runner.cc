@@ -4,6 +4,7 @@
 
 #include "lab/experiments/line_map_figures.h"
 #include "lab/experiments/pair_figures.h"
+#include "lab/experiments/reversed_sequence.h"
 #include "plumbline/base/error.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/folder_lock.h"
@@ -108,6 +109,7 @@ class Runner {
     FindWhatIsDone();
     try {
       RenderWorlds();
+      WriteReversedSequences();
     } catch (const Stopped&) {
       return std::nullopt;
     }
@@ -193,16 +195,24 @@ class Runner {
         return std::find(metrics.begin(), metrics.end(), name) != metrics.end();
       };
       if (AsksForMapLines(metrics)) {
-        AddMapLineFigures(plan.SequenceOf(job).path, job.folder, figures);
+        AddMapLineFigures(job.command.at(1), job.folder, figures);
       }
       if (asked("rpe_pairs") || asked("start_rpe")) {
-        AddPairFigures(plan.SequenceOf(job).path, job.folder, figures);
+        AddPairFigures(job.command.at(1), job.folder, figures);
       }
       if (asked("start_frames")) AddStartFigure(job.folder, figures);
     }
     const auto wall = figures.values.find("wall_s");
     if (wall != figures.values.end()) seconds_[item.plan][item.job] = wall->second;
     results_[item.plan][item.job].figures = std::move(figures);
+  }
+
+  void WriteReversedSequences() {
+    for (const Item& item : waiting_) {
+      const Job& job = JobOf(item);
+      if (job.reversed.empty() || IsToStop()) continue;
+      WriteReversedSequence(PlanOf(item).SequenceOf(job).path, job.reversed);
+    }
   }
 
   void RenderWorlds() {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/plan.h"
 
+#include "lab/experiments/reversed_sequence.h"
 #include "lab/starts/start_bench.h"
 #include "plumbline/base/crc32.h"
 #include "plumbline/base/error.h"
@@ -63,19 +64,13 @@ bool IsChosen(const std::string& name, const std::vector<std::string>& only) {
          });
 }
 
-// Run k leaves out the k - 1 frames that are played first; where the sequence is played backwards
-// these are its last ones.
-std::vector<std::string> PlayedFrames(const ExperimentSequence& sequence,
-                                      const Variant& variant,
-                                      int run) {
-  const auto& arguments = variant.arguments;
-  const bool reversed =
-      std::find(arguments.begin(), arguments.end(), "--reverse") != arguments.end();
-  const auto left_out = static_cast<std::size_t>(run - 1);
-  if (reversed && left_out > 0 && sequence.frames > left_out) {
-    return {"--to", std::to_string(sequence.frames - left_out)};
-  }
-  return {"--from", std::to_string(left_out)};
+// Where the sequence is written backwards. Another sequence of this name is another folder.
+std::filesystem::path ReversedFolder(const ExperimentSequence& sequence,
+                                     const PlanRequest& request) {
+  const std::string& identity = sequence.identity;
+  const std::uint32_t checksum =
+      Crc32(std::span(reinterpret_cast<const std::uint8_t*>(identity.data()), identity.size()));
+  return request.sources.cache / "reversed" / sequence.name / fmt::format("{:08x}", checksum);
 }
 
 Job MakeJob(const ExperimentSequence& sequence,
@@ -84,8 +79,8 @@ Job MakeJob(const ExperimentSequence& sequence,
             const Experiment& experiment,
             const PlanRequest& request) {
   std::vector<std::string> arguments = {"--seed", std::to_string(run)};
-  const std::vector<std::string> frames = PlayedFrames(sequence, variant, run);
-  arguments.insert(arguments.end(), frames.begin(), frames.end());
+  // Run k leaves out the k - 1 frames that are played first.
+  arguments.insert(arguments.end(), {"--from", std::to_string(run - 1)});
   arguments.insert(arguments.end(), sequence.arguments.begin(), sequence.arguments.end());
   arguments.insert(arguments.end(), variant.arguments.begin(), variant.arguments.end());
   if (!request.full) {
@@ -101,14 +96,20 @@ Job MakeJob(const ExperimentSequence& sequence,
   Job job;
   job.run = run;
   job.folder = request.out / "runs" / sequence.name / variant.name / std::to_string(run);
-  job.key = fmt::format("program {}\nsequence {}: {}\narguments {}\n",
+  job.key = fmt::format("program {}\nsequence {}: {}{}\narguments {}\n",
                         variant.by_earlier ? *request.earlier : request.program,
                         sequence.name,
                         sequence.identity,
+                        variant.reversed ? ", backwards" : "",
                         fmt::join(arguments, " "));
   const std::string name = experiment.command == RunCommandKind::kStarts ? "starts" : "run";
-  job.command = {name, sequence.path.string(), "--out", job.folder.string(), "--quiet"};
+  if (variant.reversed) job.reversed = ReversedFolder(sequence, request);
+  const std::filesystem::path& path = variant.reversed ? job.reversed : sequence.path;
+  job.command = {name, path.string(), "--out", job.folder.string(), "--quiet"};
   job.command.insert(job.command.end(), arguments.begin(), arguments.end());
+  if (variant.reversed && sequence.has_truth) {
+    job.command.insert(job.command.end(), {"--ground-truth", (path / kReversedTruth).string()});
+  }
   return job;
 }
 

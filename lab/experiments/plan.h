@@ -24,6 +24,7 @@ struct Job {
   // All that the result depends on, as text: program, sequence, arguments. A job is done while the
   // folder holds the result of the same key.
   std::string key;
+  std::filesystem::path reversed;  // folder to write the sequence backwards into; empty: as it is
   bool computed = false;   // of an experiment that computes by itself: it writes its own tables
   double computing_s = 0;  // what that takes, roughly
 };

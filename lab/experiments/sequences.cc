@@ -119,6 +119,7 @@ ExperimentSequence Recorded(const std::string& folder, const fs::path& path) {
       dataset = OpenDataset(path, options);
     }
     sequence.identity = IdentityOf(*dataset);
+    sequence.has_truth = dataset->info().ground_truth.has_value();
     sequence.frames = dataset->size();
     sequence.megapixels = MegapixelsOf(dataset->info());
   } catch (const InputError& error) {

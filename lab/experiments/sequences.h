@@ -28,10 +28,11 @@ struct ExperimentSequence {
       {};                     // that plumbline run needs for it: {"--camera", "icl_nuim"}
   std::string identity = {};  // changes when lists, calibration or ground truth do, or the options
                               // of the world
-  std::size_t frames = 0;     // 0 for one that cannot be opened
-  double megapixels = 0;      // of one image of each camera together; 0 likewise
-  std::string paper = {};     // what a paper calls it
-  bool part = false;          // of what the paper calls so
+  bool has_truth = false;
+  std::size_t frames = 0;  // 0 for one that cannot be opened
+  double megapixels = 0;   // of one image of each camera together; 0 likewise
+  std::string paper = {};  // what a paper calls it
+  bool part = false;       // of what the paper calls so
 };
 
 struct SequenceSources {

@@ -312,18 +312,18 @@ std::optional<StereoPairFault> Evidence::Find() const {
 
 }  // namespace
 
-std::string Describe(StereoPairFault fault, bool backwards) {
-  const std::string before = "the right images fit the left ones of the frame before";
-  const std::string after = "the right images fit the left ones of the frame after";
+std::string Describe(StereoPairFault fault) {
   switch (fault) {
     case StereoPairFault::kLeftTwice:
       return "the right images are the left ones: is the left side given twice?";
     case StereoPairFault::kSidesSwapped:
       return "the right images fit as left ones: are the sides swapped?";
     case StereoPairFault::kRightLate:
-      return (backwards ? after : before) + ": are the two sides paired wrongly?";
+      return "the right images fit the left ones of the frame before: are the two sides paired "
+             "wrongly?";
     case StereoPairFault::kRightEarly:
-      return (backwards ? before : after) + ": are the two sides paired wrongly?";
+      return "the right images fit the left ones of the frame after: are the two sides paired "
+             "wrongly?";
     case StereoPairFault::kRightUpsideDown:
       return "the right images fit when turned by 180 degrees: are they upside down?";
     case StereoPairFault::kLeftUpsideDown:

@@ -27,9 +27,8 @@ enum class StereoPairFault {
   kOtherCameras       // corresponding points are in other rows, for none of the reasons above
 };
 
-// Returns the fault in one sentence for users: the better interpretation, and a question. With
-// `backwards` the frames are played from the last to the first.
-std::string Describe(StereoPairFault fault, bool backwards = false);
+// Returns the fault in one sentence for users: the better interpretation, and a question.
+std::string Describe(StereoPairFault fault);
 
 // A match of a left and a right image by descriptors, in pixels as delivered.
 struct StereoPairMatch {

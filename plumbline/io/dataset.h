@@ -75,9 +75,6 @@ struct DatasetInfo {
   std::optional<std::string> ground_truth_fault;
   // One sentence for each thing that is missing or left out.
   std::vector<std::string> notes;
-  // Set where the frames are played backwards (reversed_dataset.h): what was recorded at t has the
-  // stamp time_mirror_ns - t here.
-  std::optional<std::int64_t> time_mirror_ns;
 };
 
 // A recorded sequence: frames in time order, read on demand.

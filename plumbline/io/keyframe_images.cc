@@ -208,7 +208,7 @@ ColorImage KeyFrameImages::Read(const KeyFrame& keyframe) const {
   if (compare && !MayShow(Rectified(*rectifier_, ToGray(image)), keyframe, *octave_scale_)) {
     throw InputError(
         fmt::format("{}: expected the images that the map was made of, found another one at {} s, "
-                    "where the map has keyframe {} (played backwards, or another session?)",
+                    "where the map has keyframe {} (another session?)",
                     path().string(),
                     FormatStamp(keyframe.frame.stamp_ns),
                     keyframe.id.value));

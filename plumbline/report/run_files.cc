@@ -24,81 +24,59 @@
 namespace plumbline {
 namespace {
 
-using TimeMirror = std::optional<std::int64_t>;  // DatasetInfo::time_mirror_ns
-
-FrameLog AsRecorded(FrameLog frames, TimeMirror mirror_ns) {
-  if (!mirror_ns) return frames;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    frames.Change(i, [&](FrameRecord& frame) { frame.stamp_ns = *mirror_ns - frame.stamp_ns; });
-  }
-  return frames;
-}
-
-RunFile TumFile(const std::string& name,
-                TimeMirror mirror_ns,
-                const std::function<Trajectory()>& make) {
-  return {name, [=](const std::filesystem::path& path) {
-            const Trajectory played = make();
-            WriteTum(path, mirror_ns ? TimeReversed(played, *mirror_ns) : played);
-          }};
+RunFile TumFile(const std::string& name, const std::function<Trajectory()>& make) {
+  return {name, [=](const std::filesystem::path& path) { WriteTum(path, make()); }};
 }
 
 void AddTrajectories(const System& system,
                      MapId map,
                      const TrajectoryNames& names,
-                     TimeMirror mirror_ns,
                      std::vector<RunFile>& files) {
   const auto add = [&](const std::string& name, Trajectory (System::*of)(MapId) const) {
-    files.push_back(TumFile(name, mirror_ns, [&system, of, map] { return (system.*of)(map); }));
+    files.push_back(TumFile(name, [&system, of, map] { return (system.*of)(map); }));
   };
   add(names.final_estimate, &System::FinalTrajectory);
   add(names.causal, &System::CausalTrajectory);
   add(names.keyframes, &System::KeyFrameTrajectory);
 }
 
-std::vector<RunFile> TrajectoryFiles(const System& system, TimeMirror mirror_ns) {
+std::vector<RunFile> TrajectoryFiles(const System& system) {
   std::vector<RunFile> files;
   const auto main = system.MainMap();
   if (!main) {
     const TrajectoryNames names;
     for (const std::string& name : {names.final_estimate, names.causal, names.keyframes}) {
-      files.push_back(TumFile(name, mirror_ns, [] { return Trajectory(); }));
+      files.push_back(TumFile(name, [] { return Trajectory(); }));
     }
     return files;
   }
-  AddTrajectories(system, *main, TrajectoryNames(), mirror_ns, files);
+  AddTrajectories(system, *main, TrajectoryNames(), files);
   for (const auto& [id, map] : system.maps()) {
     if (id == *main) continue;
-    AddTrajectories(system, id, TrajectoryNames(id), mirror_ns, files);
+    AddTrajectories(system, id, TrajectoryNames(id), files);
   }
   // Poses that were reported in a map that another one took in later are in the world of that map.
   for (const auto& [id, joined] : system.atlas().joined()) {
-    files.push_back(TumFile(TrajectoryNames(id).causal, mirror_ns, [&system, gone = id] {
-      return system.CausalTrajectory(gone);
-    }));
+    files.push_back(TumFile(TrajectoryNames(id).causal,
+                            [&system, gone = id] { return system.CausalTrajectory(gone); }));
   }
   return files;
 }
 
 void WriteCovariances(const System& system,
                       std::optional<MapId> map,
-                      TimeMirror mirror_ns,
                       const std::filesystem::path& path) {
   std::vector<StampedCovariance> covariances;
   if (map) covariances = system.CausalCovariances(*map);
-  if (mirror_ns) {
-    for (StampedCovariance& pose : covariances) pose.stamp_ns = *mirror_ns - pose.stamp_ns;
-    std::reverse(covariances.begin(), covariances.end());
-  }
   WriteFileAtomically(path, FormatCovariances(covariances));
 }
 
 // Returns one file beside each of causal poses.
-std::vector<RunFile> CovarianceFiles(const System& system, TimeMirror mirror_ns) {
+std::vector<RunFile> CovarianceFiles(const System& system) {
   std::vector<RunFile> files;
   const auto add = [&](const TrajectoryNames& names, std::optional<MapId> map) {
     files.push_back({names.covariance, [=, &system](const std::filesystem::path& path) {
-                       WriteCovariances(system, map, mirror_ns, path);
+                       WriteCovariances(system, map, path);
                      }});
   };
   const auto main = system.MainMap();
@@ -112,12 +90,9 @@ std::vector<RunFile> CovarianceFiles(const System& system, TimeMirror mirror_ns)
 }
 
 template <class Format>
-RunFile FramesFile(const std::string& name,
-                   const System& system,
-                   TimeMirror mirror_ns,
-                   const Format& format) {
+RunFile FramesFile(const std::string& name, const System& system, const Format& format) {
   return {name, [=, &system](const std::filesystem::path& path) {
-            WriteFileAtomically(path, format(AsRecorded(system.frames(), mirror_ns)));
+            WriteFileAtomically(path, format(system.frames()));
           }};
 }
 
@@ -185,13 +160,13 @@ std::string FormatFrames(const FrameLog& frames, const Atlas& atlas) {
   return text;
 }
 
-std::vector<RunFile> PoseFiles(const System& system, std::optional<std::int64_t> time_mirror_ns) {
-  std::vector<RunFile> files = TrajectoryFiles(system, time_mirror_ns);
+std::vector<RunFile> PoseFiles(const System& system) {
+  std::vector<RunFile> files = TrajectoryFiles(system);
   const auto format = [&system](const FrameLog& frames) {
     return FormatFrames(frames, system.atlas());
   };
-  files.push_back(FramesFile("frames.csv", system, time_mirror_ns, format));
-  for (RunFile& file : CovarianceFiles(system, time_mirror_ns)) files.push_back(std::move(file));
+  files.push_back(FramesFile("frames.csv", system, format));
+  for (RunFile& file : CovarianceFiles(system)) files.push_back(std::move(file));
   return files;
 }
 
@@ -206,11 +181,10 @@ RunFile MapFile(const System& system) {
           }};
 }
 
-std::vector<RunFile> DerivedFiles(const System& system,
-                                  std::optional<std::int64_t> time_mirror_ns) {
+std::vector<RunFile> DerivedFiles(const System& system) {
   std::vector<RunFile> files;
-  files.push_back(FramesFile("timing.csv", system, time_mirror_ns, FormatTimingCsv));
-  files.push_back(FramesFile("timing.json", system, time_mirror_ns, FormatTimingJson));
+  files.push_back(FramesFile("timing.csv", system, FormatTimingCsv));
+  files.push_back(FramesFile("timing.json", system, FormatTimingJson));
   files.push_back({"lines.obj", [&system](const std::filesystem::path& path) {
                      WriteObjLines(path, LinesToSave(system));
                    }});

@@ -30,17 +30,11 @@ std::string FormatFrames(const FrameLog& frames, const Atlas& atlas = {});
 // The functions below return the files of a finished run, by descending value for their size. The
 // files refer to the system, which must outlive them, and read it only when they are written. Each
 // is written atomically; writing throws WriteError.
-//
-// time_mirror_ns is DatasetInfo::time_mirror_ns. After a run backwards a frame has the stamp of its
-// recording in all text files, so that they can be compared with the data's own ground truth.
-// Trajectories are in the order of these stamps, rows of frames in the order played. map.plb keeps
-// the stamps as played.
 
 // Returns trajectory.txt, trajectory_causal.txt, keyframes.txt (of the map with most frames; then
 // those of other maps as *_map<k>.txt), frames.csv, and trajectory_covariance.txt (then those of
 // other maps).
-std::vector<RunFile> PoseFiles(const System& system,
-                               std::optional<std::int64_t> time_mirror_ns = std::nullopt);
+std::vector<RunFile> PoseFiles(const System& system);
 
 // Returns map.plb: the whole atlas (SaveAtlas). The active map is the one with most frames; after a
 // run with read-only maps it is unchanged.
@@ -48,7 +42,6 @@ RunFile MapFile(const System& system);
 
 // Returns timing.csv, timing.json, and lines.obj, lines.dxf and map.ply (the line map,
 // System::LineMap).
-std::vector<RunFile> DerivedFiles(const System& system,
-                                  std::optional<std::int64_t> time_mirror_ns = std::nullopt);
+std::vector<RunFile> DerivedFiles(const System& system);
 
 }  // namespace plumbline

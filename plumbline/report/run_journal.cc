@@ -17,15 +17,6 @@ namespace {
 
 constexpr std::chrono::seconds kOftenest(1);
 
-// Adds rows in the order of their stamps: those of frames played backwards go in front.
-void AddRows(const Trajectory& played, std::optional<std::int64_t> mirror_ns, std::string& text) {
-  if (mirror_ns) {
-    text.insert(0, FormatTum(TimeReversed(played, *mirror_ns)));
-  } else {
-    text += FormatTum(played);
-  }
-}
-
 }  // namespace
 
 void RunJournal::Add(const FrameRecord& record) {
@@ -43,11 +34,10 @@ void RunJournal::TakeIn(const std::vector<FrameRecord>& records) {
       causal[record.map].push_back({record.stamp_ns, *pose});
       if (record.keyframe) keyframes[record.map].push_back({record.stamp_ns, *pose});
     }
-    if (time_mirror_ns_) record.stamp_ns = *time_mirror_ns_ - record.stamp_ns;
     frames_ += FormatFrameRow(record, record.map);
   }
-  for (const auto& [map, poses] : causal) AddRows(poses, time_mirror_ns_, maps_[map].causal);
-  for (const auto& [map, poses] : keyframes) AddRows(poses, time_mirror_ns_, maps_[map].keyframes);
+  for (const auto& [map, poses] : causal) maps_[map].causal += FormatTum(poses);
+  for (const auto& [map, poses] : keyframes) maps_[map].keyframes += FormatTum(poses);
 }
 
 void RunJournal::WriteFiles(RunFolder& folder) {

@@ -25,10 +25,6 @@ class RunJournal {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // time_mirror_ns as in run_files.h.
-  explicit RunJournal(std::optional<std::int64_t> time_mirror_ns = std::nullopt)
-      : time_mirror_ns_(time_mirror_ns) {}
-
   // Adds the record of the next frame as first reported. May be called in another thread than the
   // other functions.
   void Add(const FrameRecord& record);
@@ -50,7 +46,6 @@ class RunJournal {
   void TakeIn(const std::vector<FrameRecord>& records);
   void WriteFiles(RunFolder& folder);
 
-  std::optional<std::int64_t> time_mirror_ns_;
   std::mutex mutex_;
   std::vector<FrameRecord> added_;  // since the last Write; guarded by mutex_
   std::string frames_;

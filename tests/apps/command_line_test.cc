@@ -22,7 +22,8 @@ CommandSyntax Syntax() {
           {"A", "[B]"},
           {{"--set", "K=V", "sets; may be repeated"},
            {"--count", "N", "counts"},
-           {"--quiet", "", "says less"}}};
+           {"--quiet", "", "says less"}},
+          {{"--tally", "--count N does the same"}}};
 }
 
 CommandLine Parse(const std::vector<std::string>& arguments) {
@@ -56,6 +57,13 @@ TEST(CommandLine, TakesAllAsPositionalBehindTwoDashes) {
 }
 
 TEST(CommandLine, HelpNeedsNothingElse) { EXPECT_TRUE(Parse({"--help"}).help()); }
+
+TEST(CommandLine, TellsWhatServesInPlaceOfARemovedOption) {
+  const std::string message = "do: --tally is no option any more: --count N does the same";
+  EXPECT_EQ(ParseMessage({"x", "--tally", "3"}), message);
+  EXPECT_EQ(ParseMessage({"x", "--tally=3"}), message);
+  EXPECT_EQ(HelpText(Syntax()).find("--tally"), std::string::npos);
+}
 
 TEST(CommandLine, NamesWrongUse) {
   EXPECT_EQ(ParseMessage({"x", "--quite"}), "do: unknown option --quite; the nearest is --quiet");

@@ -29,4 +29,19 @@ inline nlohmann::json Summary(const Gate& gate,
   return nlohmann::json::parse(Contents(folder / "run/summary.json"));
 }
 
+// A run over the data reaches what the gate asks for. Inline and lockstep give the same bytes
+// (run_command_test), so one of them will do.
+inline void CheckGate(const Gate& gate, const std::filesystem::path& data) {
+  const nlohmann::json summary = Summary(gate, data, "lockstep");
+  ASSERT_FALSE(summary.is_null());
+  const auto& frames = summary["frames"];
+  EXPECT_EQ(frames["tracked"], gate.tracked);
+  EXPECT_EQ(frames["skipped"], gate.skipped);
+  EXPECT_EQ(frames["in"], gate.tracked + gate.skipped);
+  EXPECT_EQ(summary["maps"], 1);
+  ASSERT_FALSE(summary["accuracy"].is_null());
+  EXPECT_GE(summary["accuracy"]["associated"], gate.tracked - 2);
+  EXPECT_LE(summary["accuracy"]["ate"]["rmse"], gate.max_ate_m);
+}
+
 }  // namespace plumbline

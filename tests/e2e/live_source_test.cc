@@ -217,7 +217,7 @@ TEST_F(FedPoster, ChoosesFramesAndRefusesWhatNeedsARecording) {
                                  std::chrono::milliseconds(1));
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(Summary("run")["frames"]["in"], 3);
-  for (const std::string option : {"--reverse", "--topic /a", "--format euroc"}) {
+  for (const std::string option : {"--topic /a", "--format euroc"}) {
     const Outcome refused =
         RunProgram(folder_, "run - " + option + Arguments("no") + " < /dev/null");
     EXPECT_EQ(refused.code, 2);

@@ -173,55 +173,19 @@ std::vector<std::vector<double>> Numbers(const fs::path& path) {
   return rows;
 }
 
-TEST(Run, PlaysBackwardsAndWritesTheStampsOfTheRecording) {
+TEST(Run, TellsWhatServesInPlaceOfRemovedOptions) {
   const ScratchFolder folder;
-  const fs::path sequence = WritePosterSequence(folder, 12);
-  const Outcome outcome =
-      RunProgram(folder,
-                 "run " + Quoted(sequence) + " --reverse --from 1 --stride 2 --quiet --out " +
-                     Quoted(folder / "run"));
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  // Frames 11, 9, ... 1: the world is where the recording ends, the camera goes back from there.
-  const auto is_played = [](const fs::path& file) {
-    const auto rows = Numbers(file);
-    ASSERT_EQ(rows.size(), 6U) << file;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const auto frame = static_cast<double>(2 * i + 1);
-      EXPECT_NEAR(rows[i].at(0), 1 + 0.05 * frame, 1e-9) << file;
-      EXPECT_NEAR(rows[i].at(1), (frame - 11) * MovingPoster::kStep, 0.01) << file;
-    }
-  };
-  is_played(folder / "run/trajectory.txt");
-  is_played(folder / "run/trajectory_causal.txt");
-  EXPECT_NEAR(Numbers(folder / "run/keyframes.txt").back().at(0), 1.55, 1e-9);
-  EXPECT_THAT(Contents(folder / "run/frames.csv"), HasSubstr("\n0,1.550000000,tracked"));
-  EXPECT_THAT(Contents(folder / "run/timing.csv"), HasSubstr("\n5,1.050000000,"));
-}
-
-TEST(Run, BackwardsHasTheErrorsThatEvaluateFinds) {
-  int found = 0;
-  for (const std::string sequence : {"euroc/MH_01_easy_first250 --to 30 --sensor stereo",
-                                     "tum/rgbd_dataset_freiburg1_floor_first90 --to 30",
-                                     "kitti/06_first51 --to 15 --sensor stereo"}) {
-    const auto data = FindData(sequence.substr(0, sequence.find(' ')));
-    if (!data) continue;
-    ++found;
-    const ScratchFolder folder;
-    Outcome outcome = RunProgram(folder,
-                                 "run " + Quoted(*data) + sequence.substr(sequence.find(' ')) +
-                                     " --reverse --quiet --out " + Quoted(folder / "run"));
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-    outcome = RunProgram(folder,
-                         "evaluate " + Quoted(*data) + " " + Quoted(folder / "run") + " --json " +
-                             Quoted(folder / "errors.json"));
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-    const auto run = nlohmann::json::parse(Contents(folder / "run/summary.json"))["accuracy"];
-    const auto errors = nlohmann::json::parse(Contents(folder / "errors.json"));
-    EXPECT_EQ(run["associated"], errors["frames_compared"]) << sequence;
-    EXPECT_NEAR(run["ate"]["rmse"], errors["ate_m"]["rmse"], 1e-6) << sequence;
-    EXPECT_LT(run["ate"]["rmse"], 0.1) << sequence;
+  for (const auto& [option, instead] : {std::pair{"--checkpoint x", "--save-every SECONDS"},
+                                        std::pair{"--checkpoint=x", "--save-every SECONDS"},
+                                        std::pair{"--resume x", "--map FILE"},
+                                        std::pair{"--reverse", "lists its images"}}) {
+    const Outcome outcome =
+        RunProgram(folder, std::string("run nowhere ") + option + " --out " + Quoted(folder / "o"));
+    EXPECT_EQ(outcome.code, 2) << option;
+    EXPECT_THAT(outcome.err, HasSubstr(" is no option any more: ")) << option;
+    EXPECT_THAT(outcome.err, HasSubstr(instead)) << option;
+    EXPECT_FALSE(std::filesystem::exists(folder / "o")) << option;
   }
-  if (found == 0) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
 }
 
 }  // namespace

@@ -142,21 +142,5 @@ TEST(StereoPair, ThatIsRightIsNot) {
   }
 }
 
-// Played backwards, a right image that is late is an early one; and nothing is printed with
-// --quiet.
-TEST(StereoPair, ThatIsWrongIsToldOfTheRecordingNotOfHowItIsPlayed) {
-  const auto data = FindData(kStereo);
-  if (!data) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
-  const ScratchFolder scratch;
-  const fs::path late = Folder(scratch, *data, 100, [](int camera, std::size_t frame) {
-    return Source{camera, camera == 1 ? frame - 1 : frame};
-  });
-  const Told told = Tell(scratch, late, " --reverse --quiet");
-  EXPECT_EQ(told.run.err, "");
-  EXPECT_THAT(told.notes,
-              testing::Contains("the right images fit the left ones of the frame before: are the "
-                                "two sides paired wrongly?"));
-}
-
 }  // namespace stereo_pair_test
 }  // namespace plumbline

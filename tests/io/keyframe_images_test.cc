@@ -155,7 +155,7 @@ TEST(KeyFrameImages, AreInColourWhereTheDataAre) {
       HasSubstr("expected the images that the map was made of"));
 }
 
-// Frames of the same times that are others: of a run that was played backwards, or of another
+// Frames of the same times that are others: of another
 // session of the map.
 TEST(KeyFrameImages, RefuseImagesThatAreNotThoseOfTheKeyframes) {
   const ScratchFolder folder;
@@ -174,8 +174,8 @@ TEST(KeyFrameImages, RefuseImagesThatAreNotThoseOfTheKeyframes) {
     EXPECT_EQ(message(2, BoxFiltered(poster.Frame(2).left, 5)), "no error") << points << lines;
     EXPECT_THAT(message(2, poster.Frame(9).left),
                 HasSubstr("sequence: expected the images that the map was made of, found another "
-                          "one at 1.100000000 s, where the map has keyframe 0 (played backwards, "
-                          "or another session?)"))
+                          "one at 1.100000000 s, where the map has keyframe 0 "
+                          "(another session?)"))
         << points << lines;
   }
 }

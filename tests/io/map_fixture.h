@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/features/extractor.h"
 #include "plumbline/map/saved_atlas.h"
 
 #include <cstdint>

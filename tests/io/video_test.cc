@@ -5,7 +5,6 @@
 #include "plumbline/base/error.h"
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/io/open_dataset.h"
-#include "plumbline/io/reversed_dataset.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/support/video_file.h"
@@ -387,16 +386,6 @@ TEST(Video, IsNoText) {
   const fs::path bright =
       folder.Write("bright.pgm", "P5\n160 120\n255\n" + std::string(kWidth * kHeight, '\xc8'));
   EXPECT_EQ(OpenDataset(bright, {})->size(), 1U);
-}
-
-TEST(Video, IsNotPlayedBackwards) {
-  const ScratchFolder folder;
-  const fs::path path = WriteVideo(folder);
-  folder.Write("camera.yaml", kCamera);
-  EXPECT_THAT(MessageOf([&] {
-                PlayedBackwards(OpenDataset(path, {}), {0, 1});
-              }),
-              HasSubstr("clip.avi: expected image files to play backwards, found a video"));
 }
 
 TEST(Video, EndsWhereTheFileWasCutShort) {

@@ -178,12 +178,16 @@ TEST(LoopCloser, PausesAfterAClosure) {
 TEST(LoopCloser, DoesNotPauseForALoopOfAnotherMap) {
   const LoopScene scene = Drifted();
   LoopCloser closer(scene.Imaging(), {});
-  LoopCloser::State state;
-  state.last_closed = KeyFrameId{1000};
-  closer.SetState(state);
   const std::vector<KeyFrameId> candidates{KeyFrameId{5}};
-  EXPECT_TRUE(closer.Try(scene.map, kQuery, candidates));
-  EXPECT_EQ(closer.state().last_closed, kQuery);
+  ASSERT_TRUE(closer.Try(scene.map, kQuery, candidates));
+  // A map that does not have this keyframe.
+  LoopSceneOptions options;
+  options.drift = testing::GrowingDrift;
+  options.keyframes = static_cast<int>(kQuery.value);
+  const LoopScene other = MakeLoopScene(options);
+  ASSERT_FALSE(other.map.Knows(kQuery));
+  closer.Try(other.map, KeyFrameId{44}, std::vector{KeyFrameId{4}});
+  EXPECT_EQ(closer.attempts().size(), 1U) << "while it pauses, it looks at none";
 }
 
 }  // namespace loop_closer_test

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/atlas_context.h"
 
+#include "plumbline/features/extractor.h"
 #include "plumbline/slam/system.h"
 
 #include "tests/support/moving_poster.h"

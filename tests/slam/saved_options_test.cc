@@ -3,6 +3,7 @@
 #include "plumbline/slam/saved_options.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/features/extractor.h"
 
 #include <functional>
 #include <string>

@@ -131,7 +131,7 @@ TEST(Catalog, RobustnessComparesEveryWayToPlayARecordingWithTheRecordingItself) 
                             Pair("every_3rd", "--stride 3" + end),
                             Pair("every_4th", "--stride 4" + end),
                             Pair("every_5th", "--stride 5" + end),
-                            Pair("reversed", "--reverse" + end)));
+                            Pair("reversed", mono)));
     for (const SequenceChoice& choice : experiment.sequences) {
       EXPECT_FALSE(choice.pattern.starts_with("worlds/")) << "recorded only: " << choice.pattern;
     }

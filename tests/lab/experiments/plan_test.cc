@@ -82,22 +82,22 @@ TEST(Plan, RunKHasSeedKAndBeginsAtFrameKMinusOne) {
                           "features.lines=false"));
 }
 
-TEST(Plan, RunKLeavesOutTheLastFramesOfASequencePlayedBackwards) {
+TEST(Plan, AReversedVariantPlaysASequenceThatIsWrittenForIt) {
   const ScratchFolder folder;
-  WriteSequenceFolder(folder, "data/euroc/a");  // of three frames
+  WriteSequenceFolder(folder, "data/euroc/a");  // without ground truth
   Experiment experiment = TwoVariants();
-  experiment.variants[0].arguments = {"--reverse"};
-  experiment.runs = 4;
+  experiment.variants[0].reversed = true;
   const Plan plan = MakePlan(experiment, RequestIn(folder));
-  const auto frames = [&](std::size_t job) {
-    const std::vector<std::string>& command = plan.jobs.at(job).command;
-    return command.at(7) + " " + command.at(8);
-  };
-  EXPECT_EQ(frames(0), "--from 0");
-  EXPECT_EQ(frames(1), "--to 2");
-  EXPECT_EQ(frames(2), "--to 1");
-  EXPECT_EQ(frames(3), "--from 3") << "nothing is left: the run is to say so";
-  EXPECT_EQ(frames(5), "--from 1") << "another variant plays forward";
+  const Job &backwards = plan.jobs[1], &forwards = plan.jobs[3];
+  EXPECT_THAT(backwards.reversed.string(), HasSubstr((folder / "cache/reversed/euroc/a").string()));
+  EXPECT_EQ(backwards.command.at(1), backwards.reversed.string());
+  EXPECT_THAT(backwards.key, HasSubstr("backwards"));
+  EXPECT_EQ(backwards.key.find(folder.path().string()), std::string::npos);
+  EXPECT_TRUE(forwards.reversed.empty());
+  EXPECT_EQ(forwards.command.at(1), (folder / "data/euroc/a").string());
+  for (const Job* job : {&backwards, &forwards}) {
+    EXPECT_EQ(job->command.at(7) + " " + job->command.at(8), "--from 1") << "run 2 leaves out one";
+  }
 }
 
 TEST(Plan, KeysFollowAllThatTheResultDependsOn) {
