@@ -11,13 +11,13 @@
 namespace plumbline {
 namespace {
 
-// Where the last pose is known to these deviations (PoseUncertainty), lines of the left image alone
+// If the last pose is known to these deviations (PoseUncertainty), lines of the left image alone
 // are enough for the next one.
 constexpr double kEnoughForLeftLines = 3e-4;
 
-// Whether association a is to be preferred. The one that shows more of the map is, unless the other
-// shows twice as much in all: things that move have many landmarks made on the spot, but after a
-// fast motion little of the map is left in the image.
+// Returns true if association a is to be preferred: the one that shows more of the map, unless the
+// other shows twice as much in all. Things that move have many landmarks made on the spot, but
+// after a fast motion little of the map is left in the image.
 bool ShowsMore(const LandmarkMatches& a, const LandmarkMatches& b) {
   const int all_a = a.matches.All();
   const int all_b = b.matches.All();
@@ -28,8 +28,8 @@ bool ShowsMore(const LandmarkMatches& a, const LandmarkMatches& b) {
   return map_a > map_b;
 }
 
-// Changes the unit in which a pose is known: all lengths are multiplied by `scale`.
-void ChangeUnit(double scale, PoseEstimate& pose) {
+// Multiplies all lengths of a pose by `scale`.
+void Rescale(double scale, PoseEstimate& pose) {
   if (scale == 1) return;
   pose.information.bottomRows<3>() /= scale;
   pose.information.rightCols<3>() /= scale;
@@ -75,30 +75,22 @@ TrackingResult Tracker::Track(FrameId id,
     trial_keyframes_ = std::max(trial_keyframes_, 1);
     return FinishLost(std::move(frame), TrackingFailure::kMapWithdrawn, {});
   }
-  return Follow(std::move(frame), *snapshot, live);
+  return TrackInMap(std::move(frame), *snapshot, live);
 }
 
-TrackingResult Tracker::Follow(Frame frame,
-                               const MapSnapshot& snapshot,
-                               const LiveConditions& live) {
+TrackingResult Tracker::TrackInMap(Frame frame,
+                                   const MapSnapshot& map,
+                                   const LiveConditions& live) {
   ++frames_since_keyframe_;
-  MoveWithMap(snapshot);
+  UpdateLastFrame(map);
   const Rigid3 last_pose = last_->frame.cam_from_world;
   const double seconds = 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns);
   const PosePrior predicted = motion_.Predict(last_pose, seconds);
 
-  PoseCandidate found = Find(frame, predicted, snapshot);
-  const MapSnapshot* seen = &snapshot;
-  if (!found.Succeeded() && live.earlier != nullptr) {
-    Frame corrected = frame;
-    corrected.indexed = WithCorrection(frame.indexed, live.earlier->correction);
-    PoseCandidate again = FindByAppearance(corrected, *live.earlier);
-    if (again.Succeeded()) {
-      frame = std::move(corrected);
-      found = std::move(again);
-      seen = live.earlier;
-    }
-  }
+  PoseCandidate found = EstimatePose(frame, predicted, map);
+  const bool in_earlier = !found.Succeeded() && live.earlier != nullptr &&
+                          FindInEarlierMap(*live.earlier, frame, found);
+  const MapSnapshot& seen = in_earlier ? *live.earlier : map;
   const bool map_learns = !use_ || !use_->read_only;
   if (found.attempt && map_learns) {
     CountSeen(found.attempt->expected, found.attempt->association, scores_);
@@ -108,30 +100,53 @@ TrackingResult Tracker::Follow(Frame frame,
   PoseAttempt& attempt = *found.attempt;
   frame.cam_from_world = attempt.pose.cam_from_world;
   SetLandmarks(attempt.association, frame);
-  const bool wanted = WantsKeyFrame(frame, attempt.association, *seen, live.feature_share);
-  // The centre of an earlier snapshot may have moved since, and the pose moves with it.
-  const KeyFramePose before = seen->places.at(seen->centre);
-  const auto today = snapshot.places.find(seen->centre);
-  const KeyFramePose centre = today == snapshot.places.end() ? before : today->second;
-  Rigid3& pose = attempt.pose.cam_from_world;
-  if (seen != &snapshot) {
-    pose = ComposePose(centre, {pose * Inverse(before.cam_from_world), before.scale});
-    ChangeUnit(centre.scale / before.scale, attempt.pose);
-  }
+  const bool needs_keyframe = NeedsKeyFrame(frame, attempt.association, seen, live.feature_share);
+  const KeyFramePose reference = MoveToMap(map, seen, attempt.pose);
+  frame.cam_from_world = attempt.pose.cam_from_world;
   const Matrix6d covariance = motion_.Observe(last_pose, attempt.pose, seconds);
-  frame.cam_from_world = pose;
   TrackingResult result =
-      FinishTracked(std::move(frame), std::move(found), seen->centre, centre, wanted);
+      FinishTracked(std::move(frame), std::move(found), seen.centre, reference, needs_keyframe);
   result.covariance = covariance;
   return result;
 }
 
-// Searches near the predicted pose. It searches by appearance as well where that finds no pose,
-// where the motion is not known (a guess of no motion finds whatever happens to lie there), and
-// where much less is found than in the frame before (the motion was unexpected).
-Tracker::PoseCandidate Tracker::Find(const Frame& frame,
-                                     const PosePrior& predicted,
-                                     const MapSnapshot& snapshot) const {
+// Looks for the pose in an earlier snapshot, by descriptors. Returns true if it is there; the frame
+// has the corrections of that snapshot then.
+bool Tracker::FindInEarlierMap(const MapSnapshot& earlier,
+                               Frame& frame,
+                               PoseCandidate& found) const {
+  Frame corrected = frame;
+  corrected.indexed = WithCorrection(frame.indexed, earlier.correction);
+  FrameCounts counts;
+  std::optional<PoseAttempt> attempt = TrackReferenceKeyFrame(corrected, earlier, counts);
+  PoseCandidate again = CheckPose(std::move(attempt), counts);
+  if (!again.Succeeded()) return false;
+  frame = std::move(corrected);
+  found = std::move(again);
+  return true;
+}
+
+// Moves a pose that was found in the snapshot `seen` with the reference keyframe of that snapshot,
+// which may have moved since. Returns the pose of this keyframe in the map.
+KeyFramePose Tracker::MoveToMap(const MapSnapshot& map,
+                                const MapSnapshot& seen,
+                                PoseEstimate& pose) {
+  const KeyFramePose before = seen.places.at(seen.centre);
+  const auto now = map.places.find(seen.centre);
+  const KeyFramePose reference = now == map.places.end() ? before : now->second;
+  if (&seen == &map) return reference;
+  const Rigid3 from_reference = pose.cam_from_world * Inverse(before.cam_from_world);
+  pose.cam_from_world = ComposePose(reference, {from_reference, before.scale});
+  Rescale(reference.scale / before.scale, pose);
+  return reference;
+}
+
+// Tracks with the motion model. Tracks the reference keyframe by descriptors as well if that finds
+// no pose, if the motion is not known (a guess of no motion finds whatever happens to lie there),
+// or if much less is found than in the frame before (the motion was unexpected).
+Tracker::PoseCandidate Tracker::EstimatePose(const Frame& frame,
+                                             const PosePrior& predicted,
+                                             const MapSnapshot& snapshot) const {
   FrameCounts counts;
   std::optional<PoseAttempt> best = TrackWithMotionModel(frame, predicted, snapshot);
   if (!best || !motion_.IsKnown() || IsWeak(*best)) {
@@ -140,13 +155,6 @@ Tracker::PoseCandidate Tracker::Find(const Frame& frame,
     if (better) best = std::move(other);
   }
   return CheckPose(std::move(best), counts);
-}
-
-Tracker::PoseCandidate Tracker::FindByAppearance(const Frame& frame,
-                                                 const MapSnapshot& snapshot) const {
-  FrameCounts counts;
-  std::optional<PoseAttempt> attempt = TrackReferenceKeyFrame(frame, snapshot, counts);
-  return CheckPose(std::move(attempt), counts);
 }
 
 std::optional<PoseAttempt> Tracker::TrackWithMotionModel(const Frame& frame,
@@ -213,7 +221,7 @@ Tracker::PoseCandidate Tracker::CheckPose(std::optional<PoseAttempt> attempt,
   return {std::move(attempt), failure, counts};
 }
 
-bool Tracker::WantsKeyFrame(const Frame& frame,
+bool Tracker::NeedsKeyFrame(const Frame& frame,
                             const LandmarkMatches& association,
                             const MapSnapshot& snapshot,
                             double feature_share) const {
@@ -319,7 +327,7 @@ NewKeyFrame Tracker::MakeKeyFrame(const Frame& frame,
 }
 
 // Moves the last frame with its keyframe by what mapping has done to it since.
-void Tracker::MoveWithMap(const MapSnapshot& snapshot) {
+void Tracker::UpdateLastFrame(const MapSnapshot& snapshot) {
   const bool arrived = snapshot.places.contains(last_->anchor.keyframe);
   Anchor& anchor = arrived ? last_->anchor : last_->parent;
   const auto place = snapshot.places.find(anchor.keyframe);

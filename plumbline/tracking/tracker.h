@@ -199,13 +199,15 @@ class Tracker {
     bool Succeeded() const { return failure == TrackingFailure::kNone; }
   };
 
-  // Tracks one frame against the map: predicts, searches and estimates, judges the pose, decides
-  // about a keyframe.
-  TrackingResult Follow(Frame frame, const MapSnapshot& snapshot, const LiveConditions& live);
-  PoseCandidate Find(const Frame& frame,
-                     const PosePrior& predicted,
-                     const MapSnapshot& snapshot) const;
-  PoseCandidate FindByAppearance(const Frame& frame, const MapSnapshot& snapshot) const;
+  // Tracks a frame against a map: predicts the pose, estimates it, decides about a keyframe.
+  TrackingResult TrackInMap(Frame frame, const MapSnapshot& map, const LiveConditions& live);
+  PoseCandidate EstimatePose(const Frame& frame,
+                             const PosePrior& predicted,
+                             const MapSnapshot& snapshot) const;
+  bool FindInEarlierMap(const MapSnapshot& earlier, Frame& frame, PoseCandidate& found) const;
+  static KeyFramePose MoveToMap(const MapSnapshot& map,
+                                const MapSnapshot& seen,
+                                PoseEstimate& pose);
   std::optional<PoseAttempt> TrackWithMotionModel(const Frame& frame,
                                                   const PosePrior& predicted,
                                                   const MapSnapshot& snapshot) const;
@@ -221,7 +223,7 @@ class Tracker {
   // without_pose: the counts of matches to report where there is no attempt.
   PoseCandidate CheckPose(std::optional<PoseAttempt> attempt,
                           const FrameCounts& without_pose) const;
-  bool WantsKeyFrame(const Frame& frame,
+  bool NeedsKeyFrame(const Frame& frame,
                      const LandmarkMatches& association,
                      const MapSnapshot& snapshot,
                      double feature_share) const;
@@ -238,7 +240,7 @@ class Tracker {
   void ForgetLoss();
   TrackingResult StartMap(Frame frame);
   NewKeyFrame MakeKeyFrame(const Frame& frame, KeyFrameId parent, const RelativePose& from_parent);
-  void MoveWithMap(const MapSnapshot& snapshot);
+  void UpdateLastFrame(const MapSnapshot& snapshot);
 
   TrackingOptions options_;
   PoseSearch search_;
