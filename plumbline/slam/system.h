@@ -40,7 +40,7 @@ struct SystemStages;
 struct TrackingResult;
 struct UnfinishedFrame;
 class FrontEnd;
-class MappingStage;
+class MapperThread;
 class MonocularInitialization;
 class Tracker;
 
@@ -55,7 +55,7 @@ struct FrameView {
 //
 // Poses are world_from_camera of the left camera as delivered (before rectification). The world is
 // that camera at the first keyframe of each map; its unit is the metre where depth is measured,
-// otherwise arbitrary. slam.mode says how mapping runs beside tracking (MappingStage); Pipeline
+// otherwise arbitrary. slam.mode says how mapping runs beside tracking (MapperThread); Pipeline
 // (pipeline.h) adds a thread for tracking, and is what feeds a live run. Not thread-safe, except
 // Measure.
 class System {
@@ -249,7 +249,7 @@ class System {
   std::unique_ptr<SystemStages> stages_;
   FrontEnd& front_end_;
   CameraAndPyramid& imaging_;
-  MappingStage& mapping_;
+  MapperThread& mapping_;
   Tracker& tracker_;
   std::unique_ptr<MonocularInitialization>& monocular_initialization_;
   MapId map_;  // map that is tracked against

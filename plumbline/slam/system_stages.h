@@ -10,7 +10,7 @@
 #include "plumbline/slam/execution.h"
 #include "plumbline/slam/front_end.h"
 #include "plumbline/slam/load_level.h"
-#include "plumbline/slam/mapping_stage.h"
+#include "plumbline/slam/mapper_thread.h"
 #include "plumbline/slam/monocular_initialization.h"
 #include "plumbline/slam/options.h"
 #include "plumbline/tracking/tracker.h"
@@ -28,7 +28,7 @@ struct SystemStages {
 
   FrontEnd front_end;
   CameraAndPyramid imaging;
-  MappingStage mapping;
+  MapperThread mapping;
   Tracker tracker;
   std::unique_ptr<MonocularInitialization>
       monocular_initialization;  // null where depth is measured

@@ -165,7 +165,7 @@ TEST(LiveRun, FollowsTheCameraWithoutMapping) {
   SimulatedRun run(Constant(20, 1'000'000));
   run.Play(125);
   EXPECT_EQ(run.CountStatus(FrameStatus::kTracked), 125);
-  EXPECT_EQ(run.most_waiting(), MappingStage::kMaxWaiting);
+  EXPECT_EQ(run.most_waiting(), MapperThread::kMaxWaiting);
   run.Finish();
   ExpectWholeTrajectory(run);
 }

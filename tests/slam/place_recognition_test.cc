@@ -45,7 +45,7 @@ class Round {
     run_.Finish();
   }
 
-  const MappingStage& stage() const { return run_.mapping(); }
+  const MapperThread& stage() const { return run_.mapping(); }
   int FrameOf(KeyFrameId id) const { return frame_of_.at(id); }
   const Map& map() const { return stage().atlas().active(); }
 
@@ -204,7 +204,7 @@ TEST(PlaceRecognition, SnapshotsOfAMapThatWasWithdrawnSaySo) {
         YoungMap([&](int keyframe) { return keyframe < 14 ? 1 : growth; });
     SlamOptions options;
     options.slam.mode = RunMode::kInline;
-    MappingStage stage(scene.Imaging(), options);
+    MapperThread stage(scene.Imaging(), options);
     stage.Continue(AtlasOf(scene.map), {});
     KeyFrame keyframe = *scene.map.Find(scene.Newest());
     const KeyFramePose parent = scene.map.PlaceOf(keyframe.parent);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/slam/mapping_stage.h"
+#include "plumbline/slam/mapper_thread.h"
 #include "plumbline/slam/options.h"
 #include "plumbline/tracking/tracker.h"
 
@@ -58,11 +58,11 @@ class SyntheticRun {
   void Finish() { mapping_.Finish(); }
   const std::map<MapId, Map>& maps() const { return mapping_.maps(); }
   const Tracker& tracker() const { return tracker_; }
-  const MappingStage& mapping() const { return mapping_; }
+  const MapperThread& mapping() const { return mapping_; }
 
  private:
   SyntheticWorld world_;
-  MappingStage mapping_;
+  MapperThread mapping_;
   Tracker tracker_;
   std::int64_t next_ = 0;
 };

@@ -188,7 +188,7 @@ TEST(Tracker, LeavesAMapThatWasWithdrawnAtOnce) {
   const SyntheticWorld world = MakeMonocularWorld(300, 60);
   SlamOptions options = SyntheticRun::InlineOptions();
   options.tracking.trial_keyframes = 0;
-  MappingStage stage(world.Imaging(), options);
+  MapperThread stage(world.Imaging(), options);
   stage.Submit(16,
                MakeInitialMapEdit(
                    InitialMapOf(world, {0, 8, 16}), world.Imaging(), Rigid3{}, KeyFrameId{0}));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/slam/mapping_stage.h"
+#include "plumbline/slam/mapper_thread.h"
 
 #include "plumbline/features/single_precision.h"
 
@@ -32,9 +32,9 @@ NewKeyFrame KeyFrameAt(const SyntheticWorld& world, std::int64_t id, std::int64_
           {pose * Inverse(parent_pose), 1}};
 }
 
-TEST(MappingStage, TheFirstKeyFrameTakesEffectAtOnce) {
+TEST(MapperThread, TheFirstKeyFrameTakesEffectAtOnce) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 40);
-  MappingStage stage(world.Imaging(), WithLag(5));
+  MapperThread stage(world.Imaging(), WithLag(5));
   EXPECT_EQ(stage.SnapshotFor(0), nullptr);
   EXPECT_TRUE(stage.maps().empty());
   stage.Submit(3, KeyFrameAt(world, 0, -1), true);
@@ -46,10 +46,10 @@ TEST(MappingStage, TheFirstKeyFrameTakesEffectAtOnce) {
   EXPECT_TRUE(stage.TakeTimes().empty());
 }
 
-TEST(MappingStage, AMapThatBeginsWithSeveralKeyFramesTakesEffectAtOnce) {
+TEST(MapperThread, AMapThatBeginsWithSeveralKeyFramesTakesEffectAtOnce) {
   const SyntheticWorld world = MakeMonocularWorld(300, 60);
   const InitialMap initial = InitialMapOf(world, {0, 8, 16});
-  MappingStage stage(world.Imaging(), WithLag(5));
+  MapperThread stage(world.Imaging(), WithLag(5));
   stage.Submit(16, MakeInitialMapEdit(initial, world.Imaging(), Rigid3{}, KeyFrameId{0}));
   const auto snapshot = stage.SnapshotFor(16);
   ASSERT_NE(snapshot, nullptr);
@@ -60,12 +60,12 @@ TEST(MappingStage, AMapThatBeginsWithSeveralKeyFramesTakesEffectAtOnce) {
   stage.maps().at(MapId{0}).CheckInvariants();
 }
 
-TEST(MappingStage, ANewMapTakesTheLensOfTheMapBefore) {
+TEST(MapperThread, ANewMapTakesTheLensOfTheMapBefore) {
   const SyntheticWorld world = MakeMonocularWorld(300, 60);
   const LensCorrection lens(world.camera, 2);
   Atlas atlas;
   atlas.Start().Apply({edit::CorrectFeatures{{{}, lens}}});
-  MappingStage stage(world.Imaging(), WithLag(5));
+  MapperThread stage(world.Imaging(), WithLag(5));
   stage.Continue(std::move(atlas), {});
   const InitialMap initial = InitialMapOf(world, {0, 8, 16});
   stage.Submit(16, MakeInitialMapEdit(initial, world.Imaging(), Rigid3{}, KeyFrameId{0}));
@@ -81,10 +81,10 @@ TEST(MappingStage, ANewMapTakesTheLensOfTheMapBefore) {
   EXPECT_EQ(LogSe3(stage.maps().at(MapId{1}).PoseOf(KeyFrameId{0})).norm(), 0);
 }
 
-TEST(MappingStage, OthersTakeEffectAfterTheLag) {
+TEST(MapperThread, OthersTakeEffectAfterTheLag) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 40);
   for (const int lag : {0, 1, 4}) {
-    MappingStage stage(world.Imaging(), WithLag(lag));
+    MapperThread stage(world.Imaging(), WithLag(lag));
     stage.Submit(0, KeyFrameAt(world, 0, -1), true);
     stage.Submit(10, KeyFrameAt(world, 1, 0), false);
     stage.Submit(11, KeyFrameAt(world, 2, 1), false);
@@ -94,10 +94,10 @@ TEST(MappingStage, OthersTakeEffectAfterTheLag) {
   }
 }
 
-TEST(MappingStage, TheResultDoesNotDependOnWhenItIsAsked) {
+TEST(MapperThread, TheResultDoesNotDependOnWhenItIsAsked) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 40);
-  MappingStage asked(world.Imaging(), WithLag(1));
-  MappingStage not_asked(world.Imaging(), WithLag(1));
+  MapperThread asked(world.Imaging(), WithLag(1));
+  MapperThread not_asked(world.Imaging(), WithLag(1));
   for (std::int64_t k = 0; k < 5; ++k) {
     asked.Submit(2 * k, KeyFrameAt(world, k, k - 1), k == 0);
     asked.SnapshotFor(2 * k + 1);
@@ -113,9 +113,9 @@ TEST(MappingStage, TheResultDoesNotDependOnWhenItIsAsked) {
   }
 }
 
-TEST(MappingStage, FinishDoesWhatIsLeft) {
+TEST(MapperThread, FinishDoesWhatIsLeft) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 40);
-  MappingStage stage(world.Imaging(), WithLag(50));
+  MapperThread stage(world.Imaging(), WithLag(50));
   stage.Submit(0, KeyFrameAt(world, 0, -1), true);
   stage.Submit(1, KeyFrameAt(world, 1, 0), false);
   EXPECT_EQ(stage.SnapshotFor(2)->centre, KeyFrameId{0});
@@ -124,9 +124,9 @@ TEST(MappingStage, FinishDoesWhatIsLeft) {
   EXPECT_EQ(stage.maps().rbegin()->second.keyframes().size(), 2U);
 }
 
-TEST(MappingStage, ANewMapBeginsAfterTheOldOneIsComplete) {
+TEST(MapperThread, ANewMapBeginsAfterTheOldOneIsComplete) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 40);
-  MappingStage stage(world.Imaging(), WithLag(50));
+  MapperThread stage(world.Imaging(), WithLag(50));
   stage.Submit(0, KeyFrameAt(world, 0, -1), true);
   stage.Submit(1, KeyFrameAt(world, 1, 0), false);
   stage.Submit(2, KeyFrameAt(world, 2, -1), true);
@@ -150,7 +150,7 @@ std::shared_ptr<const FrameFeatures> ThroughALens(
 }
 
 // A correction of the whole map is due, but no task came that would have applied it.
-TEST(MappingStage, ALookAtTheMapsDoesNotHastenACorrection) {
+TEST(MapperThread, ALookAtTheMapsDoesNotHastenACorrection) {
   const SyntheticWorld world = MakeMonocularWorld(400, 0);
   std::vector<int> path_frames;
   for (int k = 0; k < 16; ++k) path_frames.push_back(4 * k);
@@ -158,7 +158,7 @@ TEST(MappingStage, ALookAtTheMapsDoesNotHastenACorrection) {
   for (auto& view : initial.views) {
     view.frame.indexed = ThroughALens(world.camera, 5, view.frame.indexed);
   }
-  MappingStage stage(world.Imaging(), WithLag(1));
+  MapperThread stage(world.Imaging(), WithLag(1));
   stage.Submit(60, MakeInitialMapEdit(initial, world.Imaging(), Rigid3{}, KeyFrameId{0}));
   Frame frame;
   frame.id = FrameId{64};
@@ -183,15 +183,15 @@ TEST(MappingStage, ALookAtTheMapsDoesNotHastenACorrection) {
   EXPECT_NEAR(stage.maps().at(MapId{0}).correction().lens.border_px(), 5, 2);
 }
 
-class MappingStageWithThread : public ::testing::TestWithParam<RunMode> {};
+class MapperWithThread : public ::testing::TestWithParam<RunMode> {};
 INSTANTIATE_TEST_SUITE_P(Modes,
-                         MappingStageWithThread,
+                         MapperWithThread,
                          ::testing::Values(RunMode::kLockstep, RunMode::kLive),
                          [](const auto& mode) { return std::string(NameOf(mode.param)); });
 
-TEST_P(MappingStageWithThread, WaitsForTheFirstKeyFrameOfAMap) {
+TEST_P(MapperWithThread, WaitsForTheFirstKeyFrameOfAMap) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 40);
-  MappingStage stage(world.Imaging(), WithLag(5, GetParam()));
+  MapperThread stage(world.Imaging(), WithLag(5, GetParam()));
   EXPECT_EQ(stage.SnapshotFor(0), nullptr);
   stage.Submit(0, KeyFrameAt(world, 0, -1), true);
   EXPECT_EQ(stage.SnapshotFor(1)->centre, KeyFrameId{0});
@@ -203,9 +203,9 @@ TEST_P(MappingStageWithThread, WaitsForTheFirstKeyFrameOfAMap) {
   EXPECT_EQ(stage.maps().at(MapId{0}).keyframes().size(), 2U);
 }
 
-TEST_P(MappingStageWithThread, ShowsMapsOnlyWhenTheyAreComplete) {
+TEST_P(MapperWithThread, ShowsMapsOnlyWhenTheyAreComplete) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 40);
-  MappingStage stage(world.Imaging(), WithLag(0, GetParam()));
+  MapperThread stage(world.Imaging(), WithLag(0, GetParam()));
   stage.Submit(0, KeyFrameAt(world, 0, -1), true);
   for (std::int64_t k = 1; k < 4; ++k) stage.Submit(k, KeyFrameAt(world, k, k - 1), false);
   // The thread may be done already.
@@ -218,18 +218,18 @@ TEST_P(MappingStageWithThread, ShowsMapsOnlyWhenTheyAreComplete) {
   stage.maps().rbegin()->second.CheckInvariants();
 }
 
-TEST_P(MappingStageWithThread, RethrowsWhatMappingThrew) {
+TEST_P(MapperWithThread, RethrowsWhatMappingThrew) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 40);
-  MappingStage stage(world.Imaging(), WithLag(0, GetParam()));
+  MapperThread stage(world.Imaging(), WithLag(0, GetParam()));
   stage.Submit(0, KeyFrameAt(world, 0, -1), true);
   stage.Submit(1, KeyFrameAt(world, 0, -1), false);  // there already
   EXPECT_THROW(stage.Finish(), BugError);
   EXPECT_THROW(stage.Finish(), BugError);
 }
 
-TEST_P(MappingStageWithThread, AfterAFailureTheMapsAreWhatWasDone) {
+TEST_P(MapperWithThread, AfterAFailureTheMapsAreWhatWasDone) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 40);
-  MappingStage stage(world.Imaging(), WithLag(0, GetParam()));
+  MapperThread stage(world.Imaging(), WithLag(0, GetParam()));
   stage.Submit(0, KeyFrameAt(world, 0, -1), true);
   stage.Submit(1, KeyFrameAt(world, 1, 0), false);
   stage.Submit(2, KeyFrameAt(world, 1, 0), false);  // there already
@@ -240,16 +240,16 @@ TEST_P(MappingStageWithThread, AfterAFailureTheMapsAreWhatWasDone) {
   stage.maps().at(MapId{0}).CheckInvariants();
 }
 
-TEST_P(MappingStageWithThread, EndsWithWorkLeft) {
+TEST_P(MapperWithThread, EndsWithWorkLeft) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 40);
-  MappingStage stage(world.Imaging(), WithLag(0, GetParam()));
+  MapperThread stage(world.Imaging(), WithLag(0, GetParam()));
   stage.Submit(0, KeyFrameAt(world, 0, -1), true);
   for (std::int64_t k = 1; k < 8; ++k) stage.Submit(k, KeyFrameAt(world, k, k - 1), false);
 }
 
-TEST(MappingStage, InLockstepASnapshotIsNotNewerThanItsFrameMayKnow) {
+TEST(MapperThread, InLockstepASnapshotIsNotNewerThanItsFrameMayKnow) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 40);
-  MappingStage stage(world.Imaging(), WithLag(1, RunMode::kLockstep));
+  MapperThread stage(world.Imaging(), WithLag(1, RunMode::kLockstep));
   stage.Submit(0, KeyFrameAt(world, 0, -1), true);
   stage.Submit(10, KeyFrameAt(world, 1, 0), false);
   stage.Submit(11, KeyFrameAt(world, 2, 1), false);
@@ -260,9 +260,9 @@ TEST(MappingStage, InLockstepASnapshotIsNotNewerThanItsFrameMayKnow) {
   EXPECT_EQ(stage.SnapshotFor(20)->centre, KeyFrameId{2});
 }
 
-TEST(MappingStage, LiveTheNewestSnapshotCounts) {
+TEST(MapperThread, LiveTheNewestSnapshotCounts) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 40);
-  MappingStage stage(world.Imaging(), WithLag(50, RunMode::kLive));
+  MapperThread stage(world.Imaging(), WithLag(50, RunMode::kLive));
   stage.Submit(0, KeyFrameAt(world, 0, -1), true);
   stage.Submit(1, KeyFrameAt(world, 1, 0), false);
   stage.Finish();
@@ -270,13 +270,13 @@ TEST(MappingStage, LiveTheNewestSnapshotCounts) {
 }
 
 // A live stage whose keyframes are mapped when the test says so.
-class MappingStageStepByStep : public ::testing::Test {
+class MapperStepByStep : public ::testing::Test {
  protected:
   SyntheticWorld world_ = MakeSyntheticWorld(200, 40);
-  MappingStage stage_{world_.Imaging(), WithLag(1, RunMode::kLive), {.threads = false}};
+  MapperThread stage_{world_.Imaging(), WithLag(1, RunMode::kLive), {.threads = false}};
 };
 
-TEST_F(MappingStageStepByStep, KeyFramesThatWaitAreTrackedAgainstAtOnce) {
+TEST_F(MapperStepByStep, KeyFramesThatWaitAreTrackedAgainstAtOnce) {
   stage_.Submit(0, KeyFrameAt(world_, 0, -1), true);
   EXPECT_EQ(stage_.SnapshotFor(1)->centre, KeyFrameId{0});
   EXPECT_EQ(stage_.EarlierSnapshot(), nullptr);
@@ -296,7 +296,7 @@ TEST_F(MappingStageStepByStep, KeyFramesThatWaitAreTrackedAgainstAtOnce) {
   for (const SnapshotPoint& point : mapped->points) EXPECT_LT(point.id.value, 100'000);
 }
 
-TEST_F(MappingStageStepByStep, WhereTooManyWaitTheLeastInformativeIsGivenUp) {
+TEST_F(MapperStepByStep, WhereTooManyWaitTheLeastInformativeIsGivenUp) {
   stage_.Submit(0, KeyFrameAt(world_, 0, -1), true);
   const auto known = stage_.SnapshotFor(1);
   for (std::int64_t k = 1; k <= 4; ++k) {
@@ -312,7 +312,7 @@ TEST_F(MappingStageStepByStep, WhereTooManyWaitTheLeastInformativeIsGivenUp) {
   EXPECT_EQ(gone->id, KeyFrameId{3});
   EXPECT_EQ(gone->frame, FrameId{3});
   EXPECT_EQ(gone->parent, KeyFrameId{2});
-  EXPECT_EQ(stage_.Waiting(), MappingStage::kMaxWaiting);
+  EXPECT_EQ(stage_.Waiting(), MapperThread::kMaxWaiting);
   const auto ahead = stage_.SnapshotFor(6);
   EXPECT_EQ(ahead->centre, KeyFrameId{5});
   EXPECT_FALSE(ahead->cam_from_world.contains(KeyFrameId{3}));
@@ -323,7 +323,7 @@ TEST_F(MappingStageStepByStep, WhereTooManyWaitTheLeastInformativeIsGivenUp) {
   EXPECT_EQ(map.Find(KeyFrameId{4})->parent, KeyFrameId{2});
 }
 
-TEST_F(MappingStageStepByStep, EarlierSnapshotsAreOfTheMapInUse) {
+TEST_F(MapperStepByStep, EarlierSnapshotsAreOfTheMapInUse) {
   stage_.Submit(0, KeyFrameAt(world_, 0, -1), true);
   for (std::int64_t k = 1; k <= 3; ++k) {
     stage_.SnapshotFor(k);
@@ -338,7 +338,7 @@ TEST_F(MappingStageStepByStep, EarlierSnapshotsAreOfTheMapInUse) {
 }
 
 // A camera that is only localized is found in another map without a SwitchMap.
-TEST_F(MappingStageStepByStep, EarlierSnapshotsAreOfTheMapWhereTheCameraIsFound) {
+TEST_F(MapperStepByStep, EarlierSnapshotsAreOfTheMapWhereTheCameraIsFound) {
   stage_.Submit(0, KeyFrameAt(world_, 0, -1), true);
   for (std::int64_t k = 1; k <= 2; ++k) {
     stage_.SnapshotFor(k);
@@ -357,7 +357,7 @@ TEST_F(MappingStageStepByStep, EarlierSnapshotsAreOfTheMapWhereTheCameraIsFound)
 
 // A camera that is only localized tells what it sees; before mapping has looked at that, it is lost
 // and found in another map.
-TEST_F(MappingStageStepByStep, ASightingInAMapThatIsNotInUseAnyMoreChangesNothing) {
+TEST_F(MapperStepByStep, ASightingInAMapThatIsNotInUseAnyMoreChangesNothing) {
   stage_.Submit(0, KeyFrameAt(world_, 0, -1), true);
   const auto snapshot = stage_.SnapshotFor(1);
   ASSERT_FALSE(snapshot->points.empty());
@@ -383,7 +383,7 @@ int StepsAtTheEnd(LoadLevel shed) {
   options.mapping.ba.rounds = 20;
   options.mapping.ba.max_iterations = 1;
   options.mapping.ba.rejection_tolerance = 0;  // no round is left out
-  MappingStage stage(world.Imaging(), options, {.threads = false});
+  MapperThread stage(world.Imaging(), options, {.threads = false});
   for (std::int64_t k = 0; k < 4; ++k) {
     stage.Submit(k, KeyFrameAt(world, k, k - 1), k == 0);
     EXPECT_TRUE(stage.WorkOnce());
@@ -399,7 +399,7 @@ int StepsAtTheEnd(LoadLevel shed) {
   return steps;
 }
 
-TEST(MappingStage, LiveNothingIsShedOfTheAdjustmentAtTheEnd) {
+TEST(MapperThread, LiveNothingIsShedOfTheAdjustmentAtTheEnd) {
   EXPECT_EQ(StepsAtTheEnd(LoadLevel::kMapping), StepsAtTheEnd(LoadLevel::kNothing));
 }
 

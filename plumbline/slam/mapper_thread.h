@@ -2,31 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/map/atlas.h"
-#include "plumbline/map/snapshot.h"
-#include "plumbline/mapping/local_mapper.h"
-#include "plumbline/matching/projection_search.h"
-#include "plumbline/slam/background_adjustment.h"
-#include "plumbline/slam/execution.h"
-#include "plumbline/slam/initial_map_edit.h"
-#include "plumbline/slam/load_control.h"
-#include "plumbline/slam/options.h"
-#include "plumbline/slam/place_recognition.h"
-#include "plumbline/tracking/relocalization.h"
-#include "plumbline/tracking/tracker.h"
+#include "plumbline/slam/map_events.h"
+#include "plumbline/slam/mapper.h"
+#include "plumbline/slam/snapshot_schedule.h"
 
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <exception>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <thread>
 #include <utility>
-#include <variant>
 #include <vector>
 
 namespace plumbline {
@@ -40,72 +28,29 @@ struct DroppedKeyFrame {
   RelativePose from_parent;
 };
 
-// A lost frame whose place in one of the maps is to be found by appearance.
-struct RelocalizationRequest {
-  Frame frame;
-};
-// What came of a RelocalizationRequest.
-struct RelocalizationOutcome {
-  std::optional<Relocalized> found;  // nullopt where the place was not found
-  // The map around the keyframe from which the place was found.
-  std::shared_ptr<const MapSnapshot> snapshot;
-};
-
-// The lost camera goes on in a map that it had left. From now on this map is the active one.
-struct SwitchMap {
-  MapId map;
-  KeyFrameId keyframe;  // the keyframe beside which the camera is
-};
-
-// The landmarks that the camera sees when it leaves the surroundings that the snapshot shows.
-struct UpdateLocalMapRequest {
-  MapId map;
-  std::vector<PointId> points;
-  std::vector<LineId> lines;
-};
-
-// A function to be called with the maps between two keyframes, in the thread that maps.
-struct MapReader {
-  std::function<void(const Atlas&, const LocalMapper&, const PlaceRecognition&)> look;
-};
-
-// Owns the maps and is the only one to write them. Takes keyframes from the tracker and hands out
-// snapshots.
-//
-// When a keyframe takes effect is part of the algorithm, not of the machine's speed. A keyframe
-// made at frame f is in the snapshot from frame f + 1 + lag on; the start of a map is in it at
-// once.
+// Runs the mapper beside tracking: queues its commands, does them in a thread, and gives each frame
+// the snapshot that it is due (SnapshotSchedule).
 //   inline    The work is done in the caller's thread, when the snapshot is asked for.
-//   lockstep  A thread begins the work as soon as a keyframe comes, and the caller waits for
-//             exactly the snapshot that the frame is due. The bytes are those of inline.
-//   live      The caller waits only for the first keyframe of a map. It gets the newest snapshot
-//             there is, with the keyframes that are not in it yet (WithPendingKeyFrames), so that
-//             tracking always has a map that reaches the camera. At most kMaxWaiting keyframes may
-//             wait; when one more comes, the one without which the map loses least is given up.
-//
-// A map whose shape has changed at large is adjusted as a whole beside mapping
-// (BackgroundAdjustment), and so is a map of one camera that has 16 keyframes or more and tells of
-// the lens. The correction is applied before the first task that was submitted at or after the
-// frame at which it is due and is no MapReader, which changes no result; a live run applies it as
-// soon as it is ready. It is applied to the map as it is then (RebaseCorrection), and shows in that
-// task's snapshot.
-//
-// A young map of one camera whose unit of length runs away is withdrawn
-// (PlaceRecognition::Withdraws). Its snapshots say so from then on.
+//   lockstep  A thread begins the work as soon as a command comes, and the caller waits for exactly
+//             the snapshot that the frame is due. The bytes are those of inline.
+//   live      The caller waits only for the first keyframe of a map. It gets the newest snapshot,
+//             with the keyframes that are not in it yet (WithPendingKeyFrames), so that tracking
+//             always has a map that reaches the camera. At most kMaxWaiting keyframes may wait;
+//             when one more comes, the one without which the map loses least is given up.
 //
 // All functions are for one thread, the tracker's, except those that say otherwise.
-class MappingStage {
+class MapperThread {
  public:
   static constexpr std::size_t kMaxWaiting = 4;   // most keyframes that may wait in a live run
   static constexpr std::size_t kEarlierKept = 8;  // most earlier snapshots that a live run keeps
 
-  MappingStage(const CameraAndPyramid& imaging,
+  MapperThread(const CameraAndPyramid& imaging,
                const SlamOptions& options,
                const Execution& execution = {});
   // Leaves undone all tasks that have not begun.
-  ~MappingStage();
-  MappingStage(const MappingStage&) = delete;
-  MappingStage& operator=(const MappingStage&) = delete;
+  ~MapperThread();
+  MapperThread(const MapperThread&) = delete;
+  MapperThread& operator=(const MapperThread&) = delete;
 
   // Submits a keyframe, which opens a new map when `starts_map`. Frames count from 0. Returns the
   // keyframe that was given up for this one, where there is one.
@@ -119,23 +64,23 @@ class MappingStage {
   void Submit(std::int64_t frame, SwitchMap back);
   // Submits what the camera sees. The snapshot becomes the one around the keyframe that shows most
   // of it.
-  void Submit(std::int64_t frame, UpdateLocalMapRequest sighting);
-  void Submit(std::int64_t frame, MapReader visit);
+  void Submit(std::int64_t frame, UpdateLocalMapRequest request);
+  void Submit(std::int64_t frame, MapReader reader);
 
   // Moves the maps of this stage's atlas, or of a copy of it, each as a whole, so that the first
   // keyframe is where it was before the map was adjusted to a lens: the world is the camera of that
   // keyframe. When it may be called: see atlas(), or in a MapReader.
-  void MoveFirstKeyFramesBack(Atlas& atlas) const;
+  void MoveFirstKeyFramesBack(Atlas& atlas) const { mapper_.MoveFirstKeyFramesBack(atlas); }
 
   // Begins with maps that there are already, of which one is active, and with what mapping
   // remembered of them. To be called before anything is submitted.
-  void Continue(Atlas atlas, const LocalMapper::State& mapper);
+  void Continue(Atlas atlas, const LocalMapper::State& state);
 
   // Waits until all that was submitted is done. Rethrows what mapping threw.
   void WaitUntilDone() { WaitFor(submitted_); }
 
   // Sets the observer, which is called in the thread that maps. To be called before the first task.
-  void Observe(PlaceObserver observer) { places_.Observe(std::move(observer)); }
+  void Observe(PlaceObserver observer) { mapper_.Observe(std::move(observer)); }
 
   // Returns the outcome of a relocalization, once, when the frame of the last SnapshotFor() may
   // know it.
@@ -196,22 +141,10 @@ class MappingStage {
   std::vector<MappingStep> TakeTimes();
 
  private:
-  using Work = std::variant<std::shared_ptr<const NewKeyFrame>,
-                            InitialMapEdit,
-                            RelocalizationRequest,
-                            SwitchMap,
-                            UpdateLocalMapRequest,
-                            MapReader>;
-  // A piece of work for the mapper. Tasks are numbered from 1 in the order of submission.
+  // A command for the mapper. Tasks are numbered from 1 in the order of submission.
   struct Task {
     std::int64_t number = 0;
-    std::int64_t frame = 0;  // frame at which it was submitted
-    Work work;
-    bool starts_map = false;
-  };
-  struct SnapshotDue {
-    std::int64_t frame = 0;  // first frame that is to see the task's result
-    std::int64_t task = 0;
+    MapCommand command;
   };
   struct PublishedSnapshot {
     std::int64_t task = 0;  // the last task whose result is in the snapshot
@@ -221,18 +154,7 @@ class MappingStage {
     std::int64_t task = 0;
     RelocalizationOutcome outcome;
   };
-  struct PlacedKeyFrame {
-    KeyFrameId id;
-    Rigid3 cam_from_world;
-  };
-  // The results of a task.
-  struct Done {
-    std::shared_ptr<const MapSnapshot> snapshot;  // null: the snapshot before stays in use
-    std::vector<MappingStep> times;
-    std::optional<RelocalizationOutcome> relocalization;
-  };
-
-  void Submit(std::int64_t frame, Work work, bool starts_map);
+  void Submit(MapCommand command);
   void ForgetEarlierSnapshots();
   std::optional<DroppedKeyFrame> GiveUpOne();
   std::shared_ptr<const MapSnapshot> NewestSnapshot();
@@ -241,32 +163,14 @@ class MappingStage {
   void CheckMappingDone() const;
   void TryNext(std::unique_lock<std::mutex>& lock);
   void ProcessNext(std::unique_lock<std::mutex>& lock);
-  Done DoWork(const Task& task);
-  Done StartMap(const Task& task);
-  // `frame` is the frame at which the task was submitted.
-  Done Process(const std::shared_ptr<const NewKeyFrame>& added, std::int64_t frame);
-  Done Process(const InitialMapEdit& start, std::int64_t frame);
-  Done Process(const RelocalizationRequest& request, std::int64_t frame);
-  Done Process(const SwitchMap& back, std::int64_t frame);
-  Done Process(const UpdateLocalMapRequest& sighting, std::int64_t frame);
-  Done Process(const MapReader& visit, std::int64_t frame);
-  void Recognize(KeyFrameId id, std::int64_t frame, std::vector<MappingStep>& times);
-  void CalibrateRadialDistortion(KeyFrameId newest, std::int64_t frame);
-  void TakeKnownLens(Map& map);
-  void Apply(const MapCorrection& correction, Map& map);
-  void FollowJoins();
-  void TakeCorrection(std::int64_t frame);
-  std::shared_ptr<const MapSnapshot> TakeSnapshotAround(const Map& map, KeyFrameId centre);
   std::int64_t LastDone() const { return versions_.back().task; }
 
   RunMode mode_;
-  std::int64_t lag_;
   RectifiedCamera camera_;
-  MappingOptions mapping_options_;
+  LandmarkCreationOptions creation_;
   // State of the tracker's thread.
   std::int64_t submitted_ = 0;
-  // Tasks whose results later frames are to see; in a live run only those that start maps.
-  std::deque<SnapshotDue> dues_;
+  SnapshotSchedule schedule_;
   std::int64_t map_begins_ = 0;  // task that began the map in use
   // Earlier snapshots of a live run, the newest first.
   std::deque<std::shared_ptr<const MapSnapshot>> kept_;
@@ -274,20 +178,8 @@ class MappingStage {
   // In a live run: the newest snapshot, that snapshot with the keyframes ahead of it, and these.
   std::shared_ptr<const MapSnapshot> base_, with_ahead_;
   std::vector<std::shared_ptr<const NewKeyFrame>> ahead_;
-  // State of the worker. Other threads touch it only while no task is being done.
-  LocalMapper mapper_;
-  Relocalizer relocalizer_;
-  PlaceRecognition places_;
-  Atlas atlas_;
-  // Maps that changed since they were loaded or last adjusted as a whole.
-  std::set<MapId> changed_;
-  std::deque<KeyFrameId> centres_;  // centres of the last snapshots
-  // Where the first keyframes of maps were before the maps were adjusted to a lens.
-  std::map<MapId, PlacedKeyFrame> first_places_;
-  // How many keyframes maps had taken in when they were last asked for the lens.
-  std::map<MapId, std::int64_t> lens_asked_;
-  BackgroundAdjustment adjustment_;
-  BackgroundAdjustment::Compute adjust_map_, adjust_to_lens_;
+  // Used by the worker; by other threads only while no task is being done.
+  Mapper mapper_;
   // State that both threads use, guarded by mutex_.
   mutable std::mutex mutex_;
   std::condition_variable task_added_, task_done_;
