@@ -90,8 +90,9 @@ Experiment StartExperiment(const std::string& name,
   return experiment;
 }
 
-// What the start of a map owes to each of its parts: one part is left out at a time, down to the
-// conventional start; `printed` has what the paper says and ours has not.
+// The default start with parts left out or replaced, down to the conventional start; `printed` has
+// some of what the paper says and ours has not. Without interpolation incomplete points count as
+// outliers, too.
 Experiment StartPartsExperiment() {
   const std::string rank1 = "initialization.method=rank1";
   const std::string descriptors = "initialization.matching=descriptors";
@@ -296,9 +297,10 @@ Experiment CuttingExperiment() {
   return experiment;
 }
 
-// What decides whether cutting helps: each weight of lines with and without it, and what else
-// leaves uncertain parts of lines out. Lines weigh as much as points do at a constant 0.2 and 0.3
-// px; at the 1 px of `none` they count for little and their gates are wide.
+// Each weight of lines with and without cutting, and what else leaves uncertain parts of lines
+// out. Lines weigh as much as points do at a constant 0.2 and 0.3 px; at the 1 px of `none` they
+// count for little and their gates are wide. Lines that are cut are trimmed to what is measured as
+// well (WithCutLines).
 Experiment CuttingControlExperiment(bool points) {
   Experiment experiment;
   experiment.name = points ? "cutting_controls" : "cutting_controls_lines";
@@ -343,15 +345,16 @@ Experiment CuttingControlExperiment(bool points) {
   return experiment;
 }
 
-// What a kind of line brings by itself. The adjustment at the end finds all lines anew from many
-// views and hides where they came from: each kind runs with it and without. EPL has end points all
-// the way, as section 4 of the first paper: two points of two views, which adjustments move and
-// nothing cuts anew, residuals of end points in tracking and adjustment; `endpoints` are made and
-// tracked as the others. All begin in the same way and measure as many features.
+// Lines of several systems, which all begin in the same way; `points` measure as many points and
+// no lines. The adjustment at the end finds all lines anew from many views and hides where they
+// came from: each runs with it and without. `endpoints` differ from `plucker` in parameters and in
+// the interval, which adjustments move and nothing cuts to a view (search, tracking and the depth
+// of the scene use it). EPL, as section 4 of the first paper, is also made of two views, with
+// residuals of end points in tracking and adjustment.
 Experiment LineControlExperiment(bool mono) {
   Experiment experiment;
   experiment.name = mono ? "line_controls_mono" : "line_controls";
-  experiment.help = "kinds of lines alone, with and without the adjustment at the end";
+  experiment.help = "lines of systems begun alike, with and without the adjustment at the end";
   if (mono) experiment.help += ", one camera";
   for (const char* world : {"room", "office", "planar", "lowtexture", "vicon_medium", "lights"}) {
     experiment.sequences.push_back({std::string("worlds/") + world});

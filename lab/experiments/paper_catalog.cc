@@ -91,8 +91,10 @@ Experiment RipplTable1() {
   return e;
 }
 
-// The three systems of table 2, each with all that makes it: RIPPL begins by factorization, the
-// others by two views; EPL has end points from creation to adjustment; PPL the other Jacobian.
+// The three systems of table 2, each with all that makes it, so that no difference is one of a
+// part: RIPPL begins by factorization and makes lines of n checked views, the others by two views
+// and of two; EPL has end points from creation to adjustment, another residual and interval; PPL
+// the other turn.
 std::vector<Variant> RipplSystems() {
   return {{"RIPPL", {}, kRippl},
           {"EPL",
@@ -107,7 +109,8 @@ std::vector<Variant> RipplSystems() {
            kRippl}};
 }
 
-// The default system beside those of a paper, with their sensor.
+// The default system beside those of a paper, with their sensor. It adjusts the whole map at the
+// end, which they do not: poses as first reported are from before.
 Variant DefaultSystem(std::vector<std::string> arguments) {
   return {"default", {"loop.enabled=false"}, std::move(arguments)};
 }
@@ -119,7 +122,7 @@ Experiment RipplTable2() {
       RipplTable(RipplSequences(false), "worlds/lowtexture", std::move(systems), "lines");
   e.ratios = {"ate", "ate_causal"};
   e.name = "rippl-table2";
-  e.help = "Lee and Hwang 2019, table 2: one camera, 500 points and 300 lines, by kind of line";
+  e.help = "Lee and Hwang 2019, table 2: one camera, 500 points and 300 lines, by system";
   e.plots = {"ate"};
   e.runs = 5;
   return e;
@@ -229,7 +232,7 @@ Experiment RipplFigure8() {
 Experiment RipplFigure9() {
   Experiment e;
   e.name = "rippl-figure9";
-  e.help = "Lee and Hwang 2019, figure 9: the camera before a plane, by kind of line and start";
+  e.help = "Lee and Hwang 2019, figure 9: the camera before a plane, by system";
   e.sequences = {Tum("freiburg3_nostructure_texture_far", "fr3_nstr_tex_far"),
                  Tum("freiburg1_floor", "fr1_floor"),
                  {"worlds/planar"}};
@@ -256,7 +259,7 @@ Experiment RipplFigure10() {
   Experiment e = RipplLines();
   e.name = "rippl-figure10";
   e.help =
-      "Lee and Hwang 2019, figure 10: how clean the lines of the map itself are, by kind of line, "
+      "Lee and Hwang 2019, figure 10: how clean the lines of the map itself are, by system, "
       "from above and from the side";
   e.sequences = {{"worlds/room"},
                  {"worlds/office"},
@@ -281,7 +284,7 @@ Experiment RipplFigure11() {
   e.name = "rippl-figure11";
   e.help =
       "Lee and Hwang 2019, figure 11: the lines of the map that one image shows, from its camera "
-      "and from above, by kind of line";
+      "and from above, by system";
   e.sequences = {{"worlds/room"}, Tum("freiburg1_floor", "fr1_floor"), {"euroc/MH_01_easy*"}};
   e.metrics = {"map_line_error", "map_line_angle", "map_line_precision", "lines", "ate"};
   e.plots = {"map_line_error"};
@@ -292,7 +295,7 @@ Experiment RipplFigure11() {
 Experiment RipplTimingSystem() {
   Experiment e;
   e.name = "rippl-timing-system";
-  e.help = "Lee and Hwang 2019, section 5: times of tracking and adjustment by kind of line";
+  e.help = "Lee and Hwang 2019, section 5: times of tracking and adjustment by system";
   e.sequences = RipplSequences(false);
   Append(e.sequences, {"euroc/*", "worlds/room"});
   e.variants = RipplSystems();

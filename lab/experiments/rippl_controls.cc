@@ -9,7 +9,8 @@
 namespace plumbline {
 namespace {
 
-// A part of the method left out of the variant that it is compared with.
+// A part of the method left out of the variant that it is compared with. One option differs;
+// docs/experiments.md says what else changes with it.
 struct Control {
   std::string name;
   std::vector<std::string> settings;
@@ -52,7 +53,7 @@ std::vector<Variant> ControlVariants() {
   variants.push_back(ControlVariant(
       {"no_rejection_p500", {"initialization.pairwise.reject_outliers=false"}, "p500"}, fewer));
   variants.push_back(ControlVariant({"two_view_p500", {two_view}, "p500"}, fewer));
-  // The bundle adjustment of the first map hides much of what went before it.
+  // The bundle adjustment of the first map can hide what went before it.
   std::vector<Control> as_found = PartControls();
   as_found.insert(as_found.begin(), {"proposed", {}, ""});
   for (Control& control : as_found) {

@@ -170,7 +170,7 @@ TEST(SolveRivalBa, EndsThatWerePulledAlongTheirLineStayThere) {
   }
 }
 
-// Nothing takes ends back, and nothing holds them: where they may go on, they drift.
+// Nothing takes ends back, and damping only slows them: where they may go on, they drift.
 TEST(SolveRivalBa, ProjectedEndsDriftFromAdjustmentToAdjustment) {
   const BaScene scene = MakeBaScene(3, {.lines = 30, .sigma = 1, .perturbation = 0.02});
   BaProblem problem = scene.problem;
