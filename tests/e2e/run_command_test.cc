@@ -162,17 +162,6 @@ TEST(Run, GoesOnAfterAnUnreadableImage) {
   EXPECT_THAT(Contents(folder / "run/frames.csv"), HasSubstr(",skipped,,image_unreadable,"));
 }
 
-// Rows of numbers.
-std::vector<std::vector<double>> Numbers(const fs::path& path) {
-  std::vector<std::vector<double>> rows;
-  std::istringstream text(Contents(path));
-  for (std::string line; std::getline(text, line);) {
-    std::istringstream fields(line);
-    rows.emplace_back(std::istream_iterator<double>(fields), std::istream_iterator<double>());
-  }
-  return rows;
-}
-
 TEST(Run, TellsWhatServesInPlaceOfRemovedOptions) {
   const ScratchFolder folder;
   for (const auto& [option, instead] : {std::pair{"--checkpoint x", "--save-every SECONDS"},

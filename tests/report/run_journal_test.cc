@@ -18,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-using testing::StartsWith;
 
 // Frame `i` at second `i`, one metre further than the one before.
 FrameRecord Tracked(int i, int map = 0, bool keyframe = false) {
@@ -66,20 +65,6 @@ TEST(RunJournal, GrowsAndIsWholeEachTime) {
   journal.Write(folder);
   EXPECT_EQ(Contents(folder.part() / "trajectory_causal.txt"), Row(1) + Row(2));
   EXPECT_EQ(Contents(folder.part() / "keyframes.txt"), Row(1));
-}
-
-TEST(RunJournal, HasTheStampsOfTheRecordingInTheirOrder) {
-  const ScratchFolder scratch;
-  RunFolder folder(scratch / "out");
-  RunJournal journal(10'000'000'000);
-  for (const int i : {1, 2, 3}) {
-    journal.Add(Tracked(i));
-    journal.Write(folder);
-  }
-  const std::string causal = Contents(folder.part() / "trajectory_causal.txt");
-  EXPECT_THAT(causal, StartsWith("7.000000000 3.0"));
-  EXPECT_THAT(causal, HasSubstr("\n9.000000000 1.0"));
-  EXPECT_THAT(Contents(folder.part() / "frames.csv"), HasSubstr("\n1,9.000000000,tracked"));
 }
 
 TEST(RunJournal, ThePlainNamesGoToTheMapWithMostFrames) {

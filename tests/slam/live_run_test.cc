@@ -3,6 +3,7 @@
 //
 // Live runs on a machine whose speed and clock the test decides about: nothing here depends on how
 // fast the tests run.
+#include "plumbline/slam/mapper_thread.h"
 #include "plumbline/slam/pipeline.h"
 
 #include "tests/support/moving_poster.h"
