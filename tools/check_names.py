@@ -29,7 +29,7 @@ def rules(root):
             pattern = rf"\b(?:plumbline|tests)/{old}(?![\w.-])|\bplumbline::{old}\b(?!::)"
         else:
             continue
-        yield re.compile(pattern), new, tuple(folders)
+        yield pathlib.PurePath(old).name.lstrip("."), re.compile(pattern), new, tuple(folders)
 
 
 def main():
@@ -42,12 +42,14 @@ def main():
         if name.startswith(PAST) or path.is_symlink() or not path.is_file():
             continue
         try:
-            lines = path.read_text().splitlines()
+            text = path.read_text()
         except UnicodeDecodeError:
             continue
-        here = [(pattern, new) for pattern, new, folders in all_rules
-                if not folders or any(name == f or name.startswith(f + "/") for f in folders)]
-        for number, line in enumerate(lines, 1):
+        words = set(re.findall(r"[A-Za-z]\w*", text))
+        here = [(pattern, new) for old, pattern, new, folders in all_rules
+                if (old in words or f"{old}_test" in words)
+                and (not folders or any(name == f or name.startswith(f + "/") for f in folders))]
+        for number, line in enumerate(text.splitlines() if here else [], 1):
             for pattern, new in here:
                 found = pattern.search(line)
                 if found:
