@@ -11,15 +11,15 @@
 
 namespace plumbline {
 
-// Returns the options as YAML, without choices that change no result: the mode inline is written as
-// lockstep, and features measured in one thread as in two.
+// Returns the options as YAML, without those that change no result: inline mode is written as
+// lockstep, and feature extraction in one thread as in two.
 std::string ResultOptionsYaml(const SlamOptions& options);
 
-// Adds to the context of a system what belongs to its maps: their ids, their young landmarks, and
-// what is known of the stereo pair.
+// Adds the map data of a system to its context: map ids, recent landmarks, and the calibration
+// state of the stereo pair.
 void AddMaps(const Atlas& atlas, const LocalMapper::State& mapper, AtlasContext& context);
 
-// Returns the young landmarks of each map, as AddMaps wrote them into the context.
+// Returns the recent landmarks of each map from a context (AddMaps).
 std::map<MapId, RecentLandmarks> YoungOf(const AtlasContext& context);
 
 }  // namespace plumbline

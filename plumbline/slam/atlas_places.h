@@ -10,16 +10,16 @@
 
 namespace plumbline {
 
-// Returns the map that has a keyframe; nullptr where no map has it or has it any more.
+// Returns the map with a keyframe; nullptr if no map has it, or has it any more.
 const Map* MapOf(const Atlas& atlas, KeyFrameId id);
 
-// Brings an index up to date: afterwards it holds exactly the keyframes that the maps of the atlas
-// hold. It then answers like an index that is built anew, for instance by a run that goes on from a
-// saved map. Cost: that of adding and removing what has changed, and one comparison of bits in each
-// map for every 64 ids of keyframes.
+// Brings an index up to date: afterwards it has exactly the keyframes of the maps of the atlas, and
+// answers like an index built anew, for instance in a run that continues a saved map. Cost: that of
+// adding and removing the changed keyframes, and one comparison of bits in each map for every 64
+// keyframe ids.
 void Follow(const Atlas& atlas, PlaceIndex* index);
 
-// Returns the keyframes of a map that show what an image shows, the most alike first.
+// Returns the keyframes of a map most similar in appearance to an image, the most similar first.
 std::vector<KeyFrameId> MostAlike(const PlaceIndex& index,
                                   const Map& map,
                                   const Features& features,

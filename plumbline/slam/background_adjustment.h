@@ -19,12 +19,12 @@ namespace plumbline {
 
 // Computes one correction of a whole map beside mapping, from a copy of the map.
 //
-// When a correction takes effect is part of the algorithm: Begin names the frame at which it is
-// due, which depends on the size of the problem, and whoever takes the correction at that frame
-// waits for it. Only a live run takes it whenever it is ready. A correction that begins while
-// another one is computed replaces it, because the older one does not know what made the newer one
-// necessary. The thread of the older one is told to stop, and nobody waits until it has: on a busy
-// machine a thread of low priority may take seconds to notice.
+// The frame at which a correction takes effect is part of the algorithm: Begin sets it by the size
+// of the problem, and TakeDue waits for the correction at that frame. Only a live run takes a
+// correction as soon as it is ready. A correction that begins while another one is computed
+// replaces it, because the older one does not include the reason for the newer one. The older
+// thread is told to stop, but not waited for: on a busy machine a thread of low priority may take
+// seconds to notice.
 //
 // All functions are for one thread. A failure of the computation is rethrown when the result is
 // taken.
@@ -40,20 +40,20 @@ class BackgroundAdjustment {
 
   // With Worker::kCaller the correction is computed in the caller's thread when it is taken.
   explicit BackgroundAdjustment(Worker worker) : worker_(worker) {}
-  // Gives up what is being computed, and waits until all computations have stopped.
+  // Cancels the running computation, and waits until all computations have stopped.
   ~BackgroundAdjustment();
   BackgroundAdjustment(const BackgroundAdjustment&) = delete;
   BackgroundAdjustment& operator=(const BackgroundAdjustment&) = delete;
 
-  // Begins a correction of a copy of the map. Copying is cheap: map and copy share what the map
-  // does not change meanwhile.
+  // Begins a correction of a copy of the map. Copying is cheap: map and copy share all unchanged
+  // parts.
   void Begin(const Map& map, std::int64_t due_frame, Compute compute);
   // Tells the computation to stop, without waiting for it.
   void GiveUp();
   bool Running() const { return job_ != nullptr; }
 
-  // Returns the correction once `frame` has reached the frame at which it is due, and waits for it.
-  // Returns it only once.
+  // Waits for the correction and returns it if `frame` has reached its due frame. Returns it only
+  // once.
   std::optional<Result> TakeDue(std::int64_t frame);
   // Returns the correction if it is ready, and only once.
   std::optional<Result> TakeReady();
@@ -69,7 +69,7 @@ class BackgroundAdjustment {
     std::atomic<bool> stop = false;
     std::atomic<bool> ready = false;
     bool was_ready = false;  // at the last call of Reap
-    std::jthread thread;     // declared last, so that it ends before what it uses
+    std::jthread thread;     // declared last: ends before the members it uses
   };
   static void Run(Job& job);
   void Park(std::unique_ptr<Job> job);
@@ -79,13 +79,13 @@ class BackgroundAdjustment {
 
   Worker worker_;
   std::unique_ptr<Job> job_;
-  // Jobs of which nothing is wanted any more, and whose threads may still run.
+  // Cancelled jobs whose threads may still run.
   std::vector<std::unique_ptr<Job>> parked_;
 };
 
-// Returns after how many frames the adjustment of a whole map takes effect in runs that do not
-// depend on the speed of the machine: about twice the time that it takes, at 20 frames a second.
-// An adjustment that also learns a lens takes about twice as long as others.
+// Returns the number of frames after which the adjustment of a whole map takes effect in runs that
+// do not depend on the speed of the machine: about twice its computing time, at 20 frames a second.
+// An adjustment that also calibrates a lens takes about twice as long as others.
 std::int64_t AdjustmentDelay(const Map& map);
 
 }  // namespace plumbline

@@ -13,15 +13,15 @@
 
 namespace plumbline {
 
-// A frame with the features that were measured in its images.
+// A frame with the features extracted from its images.
 struct ExtractedFrame {
   std::int64_t stamp_ns = 0;
   RectifiedFrame images;
   std::shared_ptr<const FrameFeatures> indexed;
-  // With a single camera the pyramid that its points were found in, since mapping aligns points in
-  // it (PointAligner); else null.
+  // With a single camera the pyramid of the left image, in which mapping aligns points
+  // (PointAligner); else null.
   std::shared_ptr<const ImagePyramid> left_pyramid = nullptr;
-  StageClock clock;  // times the frame's stages, in later ones as well
+  StageClock clock;  // times the frame's stages, later ones included
   LoadLevel shed = LoadLevel::kNothing;
 };
 

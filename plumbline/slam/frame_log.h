@@ -15,7 +15,7 @@
 
 namespace plumbline {
 
-// Numbers words that come again and again, so that each can be stored as a small number.
+// Numbers recurring words, so that each can be stored as a small number.
 class WordTable {
  public:
   // Returns the number of a word; a new word gets the next free number.
@@ -28,23 +28,23 @@ class WordTable {
   std::vector<std::string> words_;
 };
 
-// Keeps the records of all frames of a run in order, in little memory: 168 bytes a frame, as many
+// Stores the records of all frames of a run in order, in little memory: 168 bytes a frame, as many
 // for the covariance of a pose, and 5 for each time. An hour with 30 frames a second and ten times
-// each takes 42 MB. Times are rounded to single precision; everything else comes out as it went in,
-// but of covariances the upper triangle alone counts.
+// each takes 42 MB. Times are rounded to single precision, and only the upper triangle of a
+// covariance is stored; everything else is exact.
 //
-// The log is used like a vector, but makes its elements when they are asked for.
+// The log is used like a vector, but makes its elements on demand.
 class FrameLog {
  public:
   FrameLog() = default;
   FrameLog(std::initializer_list<FrameRecord> records);
 
-  // Whether the log can take the record next: the record's id must be the number of records so far,
-  // and its words must have room (256 different stages, 65,536 different reasons).
+  // Returns true if the log can add the record: its id must be the number of records so far, and
+  // its words must fit (256 different stages, 65,536 different reasons).
   bool Takes(const FrameRecord& record) const;
-  // Adds a record at the end; throws BugError where Takes() is false.
+  // Adds a record at the end; throws BugError if Takes() is false.
   void Add(const FrameRecord& record);
-  // Lets `change` alter the record of a frame; its id and times stay as they are.
+  // Applies `change` to the record of a frame; its id and times do not change.
   void Change(std::size_t frame, const std::function<void(FrameRecord&)>& change);
   // Adds times to the last frame, for work that ended after its record was added.
   void AddTimes(const std::vector<StageTime>& times);
@@ -64,7 +64,7 @@ class FrameLog {
 
   class const_iterator {
    public:
-    // An element is made on the spot, so that no reference to it exists.
+    // Elements are made on access, so that no reference to one exists.
     using iterator_category = std::input_iterator_tag;
     using value_type = FrameRecord;
     using difference_type = std::ptrdiff_t;

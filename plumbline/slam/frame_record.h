@@ -19,7 +19,7 @@
 
 namespace plumbline {
 
-// What became of an input frame.
+// Result of an input frame.
 enum class FrameStatus { kTracked, kLost, kInitializing, kSkipped };
 constexpr auto EnumNames(std::type_identity<FrameStatus>) {
   return std::array{std::pair{FrameStatus::kTracked, "tracked"},
@@ -28,33 +28,34 @@ constexpr auto EnumNames(std::type_identity<FrameStatus>) {
                     std::pair{FrameStatus::kSkipped, "skipped"}};
 }
 
-// All that is kept of one frame. Its pose is that of the keyframe `reference` and, relative to it,
-// `from_reference`, so that a later correction of the map moves it, too.
+// Record of one frame. Its pose is relative (`from_reference`) to the keyframe `reference`, so that
+// later corrections of the map move it, too.
 struct FrameRecord {
   FrameId id;
   std::int64_t stamp_ns = 0;
   FrameStatus status = FrameStatus::kSkipped;
-  std::string reason;  // why there is no pose; empty where there is one
-  // Map in which the pose was reported, which another may have taken in (Atlas::Current).
+  std::string reason;  // why it has no pose; else empty
+  // Map in which the pose was reported; it may have been merged into another since
+  // (Atlas::Current).
   MapId map;
   KeyFrameId reference;
   RelativePose from_reference;
-  // Pose world_from_camera of the left camera as delivered (before rectification), as it was first
-  // reported and before later corrections; none where the frame got its pose later.
+  // Pose world_from_camera of the left camera as delivered (before rectification), as first
+  // reported, before later corrections; nullopt if the frame got its pose later.
   std::optional<Rigid3> causal_world_from_camera;
   // Covariance of causal_world_from_camera relative to the map, along the axes of the world, of [x,
   // y, z, rotation about x, y, z] (PoseCovarianceInWorld), in square metres and radians, with one
-  // camera in the map's unit; none where there is no such pose, or it was not estimated from
+  // camera in map units; nullopt without a causal pose, or if the pose was not estimated from
   // matches (TrackingResult::covariance).
   std::optional<Matrix6d> causal_covariance;
   FrameCounts counts;  // matches and inliers of the pose, or of the attempt that failed
   bool keyframe = false;
-  LoadLevel shed = LoadLevel::kNothing;  // what a live run left undone for this frame
-  bool demoted = false;  // the frame was a keyframe until mapping had no time for it
-  // Times of the frame, in order. "total" runs from the frame's arrival to its pose. after_* are
-  // what was done for the frame after its pose was known (System::Complete). map_* are steps of
-  // mapping that ended since the last frame: part of "map" in inline mode, in other modes beside
-  // the frame's own work.
+  LoadLevel shed = LoadLevel::kNothing;  // work that a live run left out for this frame
+  bool demoted = false;  // true if the frame was a keyframe that mapping had no time for
+  // Times of the frame, in order. "total" runs from the frame's arrival to its pose. after_* is the
+  // work for the frame after its pose was known (System::Complete). map_* are steps of mapping that
+  // ended since the last frame: part of "map" in inline mode, in other modes concurrent with the
+  // frame's own work.
   std::vector<StageTime> times;
 };
 

@@ -14,29 +14,29 @@
 
 namespace plumbline {
 
-// Turns images into features: the stage that needs no map and no earlier frame.
+// Extracts features from images: the stage that needs no map and no earlier frame.
 class FrontEnd {
  public:
-  // Throws InputError for a calibration that cannot be used.
+  // Throws InputError for an unusable calibration.
   FrontEnd(const Calibration& calibration, const FeatureOptions& features);
 
-  // Rectifies the images and measures features. Throws InputError when an image has another size
-  // than the calibration says. Thread-safe; the same frame gives the same features. With `shed`,
-  // fewer lines or points are measured.
+  // Rectifies the images and extracts features. Throws InputError if the size of an image differs
+  // from the calibration. Thread-safe; the same frame gives the same features. With `shed`, fewer
+  // lines or points are extracted.
   ExtractedFrame Measure(SensorFrame frame,
                          StageClock clock = {},
                          LoadLevel shed = LoadLevel::kNothing) const;
 
-  // Returns the features together with the places of the lines in the right image, which are needed
-  // to make landmarks of lines. Features that have these places already are returned as they are.
-  // The features may have been corrected since they were measured. `shed` is that of Measure.
+  // Returns the features with the positions of the lines in the right image, which new line
+  // landmarks need. Features that have these positions already are returned unchanged. The features
+  // may have been corrected since their extraction. `shed` is that of Measure.
   std::shared_ptr<const FrameFeatures> WithRightLines(
       const RectifiedFrame& images,
       LoadLevel shed,
       const std::shared_ptr<const FrameFeatures>& indexed) const;
 
   const Rectifier& rectifier() const { return rectifier_; }
-  // The thread that shares the work on images; null where features are measured in one thread.
+  // The thread that shares the work on images; null if features are extracted in one thread.
   HelperThread* helper() const { return helper_.get(); }
 
  private:

@@ -12,17 +12,17 @@
 
 namespace plumbline {
 
-// A map that begins with several keyframes at once.
+// First edit of a map that begins with several keyframes at once.
 struct InitialMapEdit {
   // Adds keyframes, points and lines to an empty map.
   MapEdit edit;
   std::vector<KeyFrameId> keyframes;  // in order of time
-  std::vector<FrameId> frames;        // the frames that the keyframes were made from
+  std::vector<FrameId> frames;        // frame of each keyframe
 };
 
-// Turns the initial map of a monocular sequence into the first edit of a map. All its views become
-// keyframes, numbered from `first` on. Landmarks get the descriptors and the information that their
-// observations give.
+// Converts the initial map of a monocular sequence to the first edit of a map. All its views become
+// keyframes, numbered from `first` on. Descriptors and information of landmarks come from their
+// observations.
 //
 //   world_from_first_cam  pose of the first view in the world of the map; the initial map's world
 //                         is that view's camera
@@ -32,7 +32,7 @@ InitialMapEdit MakeInitialMapEdit(const InitialMap& initial,
                                   KeyFrameId first);
 
 // Renumbers the landmarks of an edit for a map that is empty but may follow others in its atlas,
-// because no two maps of an atlas may use the same id.
+// because landmark ids are unique within an atlas.
 MapEdit NumberedFor(const Map& map, MapEdit edit);
 
 }  // namespace plumbline

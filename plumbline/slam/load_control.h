@@ -8,7 +8,7 @@
 
 namespace plumbline {
 
-// How far behind a live run is when the turn of a frame comes.
+// Delay of a live run at the turn of a frame.
 struct Load {
   double wait = 0;         // waiting time since the frame arrived, in intervals between frames
   int frames_dropped = 0;  // frames left out since the last frame that was tracked
@@ -18,8 +18,7 @@ struct Load {
 // Decides from frame to frame what is shed. A frame is late if it waited longer than the time
 // between two frames, or if a frame before it was left out. Several late frames in a row make the
 // run shed the next value of LoadLevel as well; several frames in a row that hardly waited undo one
-// such step. Where only mapping is behind, only mapping is shed. The decision depends on nothing
-// but the loads.
+// step. If only mapping is behind, only mapping is shed. The decision depends only on the loads.
 class LoadControl {
  public:
   // Late frames in a row until more is shed; one left-out frame is enough.
@@ -33,16 +32,16 @@ class LoadControl {
   LoadLevel Next(const Load& load);
 
  private:
-  LoadLevel shed_ = LoadLevel::kNothing;  // what late frames have led to
+  LoadLevel shed_ = LoadLevel::kNothing;  // level reached by late frames
   int late_ = 0;
   int calm_ = 0;
-  bool mapping_ = false;  // mapping is behind
+  bool mapping_ = false;  // true if mapping is behind
 };
 
-// Returns which share of the usual number of point features is measured.
+// Returns the share of the usual number of point features that is extracted.
 double FeatureShare(LoadLevel shed);
 
-// Returns options that measure less, or map keyframes with less work, where something is shed.
+// Returns options that extract fewer features, or map keyframes with less work, as `shed` says.
 FeatureOptions ReducedOptions(FeatureOptions options, LoadLevel shed);
 MappingOptions ReducedOptions(MappingOptions options, LoadLevel shed);
 

@@ -8,7 +8,7 @@
 
 namespace plumbline {
 
-// What a live run leaves undone for a frame where the machine is too slow or too busy. Each value
+// Work that a live run leaves out for a frame if the machine is too slow or too busy. Each value
 // includes those before it.
 enum class LoadLevel {
   kNothing,

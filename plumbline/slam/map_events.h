@@ -9,37 +9,37 @@
 
 namespace plumbline {
 
-// A place that was seen again: the new keyframe shows what an older keyframe showed.
+// A recognized place: the new keyframe shows the same place as an older one.
 struct Recognition {
-  FrameId frame;  // the frame that the new keyframe was made of
+  FrameId frame;  // frame of the new keyframe
   KeyFrameId keyframe;
   KeyFrameId older;
-  int points = 0;  // landmarks that both keyframes show
+  int points = 0;  // landmarks common to both keyframes
   int lines = 0;
   // Decimal logarithm of the probability that two different places agree so well by chance.
   double log10_chance = 0;
-  // How far the new keyframe moved when the map was corrected [map unit].
+  // Distance that the correction moved the new keyframe [map unit].
   double moved = 0;
   double turned_deg = 0;
-  double scale = 1;  // length around the new keyframe after the correction / before
+  double scale = 1;  // scale around the new keyframe after the correction / before
 };
 
-// A lost frame that was found in a map.
+// Relocalization of a lost frame.
 struct Relocalization {
   FrameId frame;
-  KeyFrameId keyframe;  // the keyframe from which the place was found
+  KeyFrameId keyframe;  // candidate from which the pose was found
   int points = 0;       // inliers of the frame's pose
   int lines = 0;
 };
 
-// Two maps that became one.
+// Merge of two maps.
 struct MapJoin {
   Recognition place;
   MapId kept;
   MapId gone;
 };
 
-// The events that changed maps at large, each kind in the order of time.
+// Events that changed maps at large, each kind in order of time.
 struct MapEvents {
   std::vector<Recognition> loops;
   std::vector<MapJoin> joins;
@@ -48,14 +48,14 @@ struct MapEvents {
   bool empty() const { return loops.empty() && joins.empty() && relocalizations.empty(); }
 };
 
-// How many events of each kind somebody knows already.
+// Numbers of events of each kind already known to a reader.
 struct MapEventCounts {
   std::size_t loops = 0;
   std::size_t joins = 0;
   std::size_t relocalizations = 0;
 };
 
-// Returns the events of one kind behind the first `known`; they are known from then on.
+// Returns the events of one kind after the first `known`, and counts them as known.
 template <class Event>
 std::vector<Event> TakeNew(const std::vector<Event>& all, std::size_t& known) {
   std::vector<Event> fresh(all.begin() + static_cast<std::ptrdiff_t>(known), all.end());

@@ -7,15 +7,15 @@
 
 namespace plumbline {
 
-// Two maps of which one took the other in.
+// Two merged maps: the remaining one and the one merged into it.
 struct JoinedMaps {
   MapId kept;
   MapId gone;
 };
 
-// Makes one map of the two that an edge ties. The older map takes in the younger one, moved as the
-// edge says, and becomes the active one. No landmarks are fused. Throws BugError where the edge
-// does not tie two maps.
+// Merges the two maps that an edge connects. The newer map, moved by the edge, becomes part of the
+// older one, which becomes the active map. No landmarks are fused. Throws BugError if the edge does
+// not connect two maps.
 JoinedMaps JoinMaps(const LoopEdge& edge, Atlas& atlas);
 
 }  // namespace plumbline

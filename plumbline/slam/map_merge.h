@@ -17,10 +17,10 @@
 
 namespace plumbline {
 
-// Why two maps stay two.
+// Reason why two maps are not merged.
 enum class MergeRefusal {
   kNoOverlap,  // fewer than two keyframes of the second map show places of the first
-  // The edges disagree about where the second map lies: besides the largest set that agrees there
+  // The edges disagree about the pose of the second map: besides the largest consistent set there
   // is a second one with at least half as many keyframes of the second map.
   kAmbiguous,
   kContradicted,  // the shapes of the maps do not allow the edges
@@ -32,41 +32,40 @@ constexpr auto EnumNames(std::type_identity<MergeRefusal>) {
                     std::pair{MergeRefusal::kContradicted, "contradicted"}};
 }
 
-// Two maps as one.
+// Result of a merge.
 struct MergedMaps {
   Atlas atlas;                    // the joined map is the active one
-  Similarity3 first_from_second;  // from world to world, as the surest edge says
-  // The edges on which the merge rests, the surest first. The query of each is a keyframe of the
-  // second map.
+  Similarity3 first_from_second;  // from world to world, by the most certain edge
+  // The edges of the merge, the most certain first. The query of each is a keyframe of the second
+  // map.
   std::vector<LoopEdge> overlap;
   int ties = 0;  // keyframes of the second map that were fused with the first
 };
 
-// Finds where keyframes of one map show places of another. Each keyframe of the second map is
-// compared with the three keyframes of the first that look most alike (PlaceIndex, VerifyLoop). The
-// search ends with 40 edges, which are then spread over the second map. The same maps give the same
-// edges. Cost: some tens of milliseconds for each keyframe of the second map.
+// Finds pairs of keyframes of two maps that show the same place. Each keyframe of the second map is
+// compared with the three keyframes of the first most similar in appearance (PlaceIndex,
+// VerifyLoop). The search ends with 40 edges, which are then spread over the second map. The same
+// maps give the same edges. Cost: some tens of milliseconds for each keyframe of the second map.
 std::vector<LoopEdge> FindOverlap(const Map& first,
                                   const Map& second,
                                   const CameraAndPyramid& imaging,
                                   const LoopVerificationOptions& options);
 
-// Makes one map of two that have not been related to each other yet. `first`, the older one, keeps
-// its world.
+// Merges two unrelated maps. `first`, the older one, keeps its world.
 //
-// The edges between the two (FindOverlap) must agree. Of the edges that close cycles with each
-// other by way of odometry (Mangelson et al., ICRA 2018) the largest set is taken. It must have
-// edges of at least two keyframes of the second map, and more than twice as many of them as any set
-// that disagrees with it (rooms may look alike). The surest edge joins the maps (JoinMaps), all
-// edges together bend the joined map (CloseLoop), and the landmarks that they pair are fused. From
-// there on more is fused and adjusted around each keyframe of the second map that shares landmarks
-// with the first, and at last the whole map is adjusted (LocalMapper::AdjustLoopNeighbourhood,
-// Finish).
+// The edges between the two (FindOverlap) must agree. The largest set is taken of edges that
+// pairwise close consistent cycles with odometry (Mangelson et al., ICRA 2018). It must have edges
+// of at least two keyframes of the second map, and more than twice as many of them as any set
+// inconsistent with it (rooms may be similar). The most certain edge joins the maps (JoinMaps), all
+// edges together correct the merged map (CloseLoop), and the landmarks that they pair are fused.
+// More landmarks are then fused and adjusted around each keyframe of the second map that shares
+// landmarks with the first, and finally the whole map is adjusted
+// (LocalMapper::AdjustLoopNeighbourhood, Finish).
 //
-// With one camera the second map also takes over the unit of length of the first. The same input
-// gives the same result.
+// With one camera the second map also gets the scale of the first. The same input gives the same
+// result.
 //
-//   cost  FindOverlap, some tenths of a second for each keyframe that both share, AdjustWholeMap
+//   cost FindOverlap, some tenths of a second for each keyframe common to both, AdjustWholeMap
 Expected<MergedMaps, MergeRefusal> MergeMaps(const Atlas& atlas,
                                              MapId first,
                                              MapId second,

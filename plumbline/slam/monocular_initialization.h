@@ -18,7 +18,7 @@
 
 namespace plumbline {
 
-// A frame from before its map began or from the map's youth, and its place in the finished map.
+// An early frame of a map, or from before its start, and its pose in the finished map.
 struct EarlierFrame {
   FrameId id;
   MapId map;
@@ -27,46 +27,45 @@ struct EarlierFrame {
   FrameCounts counts;
 };
 
-// What a single camera needs before it has a map that can be trusted: the initializer, the frames
-// that wait for poses until there is a map, and the frames that were tracked while the map was
-// young. The baseline of a young map is short, and its landmarks move a good deal afterwards. Poses
-// relative to its keyframes do not follow them, and are therefore found anew.
+// State of a single camera before it has a reliable map: the initializer, the frames that wait for
+// poses until a map starts, and the early frames of each map. The baseline of a recent map is
+// short, and its landmarks move considerably afterwards. Poses relative to its keyframes do not
+// follow them, and are therefore estimated again.
 //
-// Kept are the features (about 0.14 MB a frame) of the newest kMaxFrames frames that wait and, for
+// Stored are the features (about 0.14 MB a frame) of the newest kMaxFrames waiting frames and, for
 // every map, of at most kMaxFrames frames tracked until the map has kYoungKeyFrames keyframes more
-// than it began with. All of them get their poses after all mapping is done (Locate): the landmarks
-// are known best then, and no frame takes longer for it.
+// than at its start. All of them get their poses after all mapping is done (Locate): the landmarks
+// are most accurate then, and no frame is delayed by it.
 class MonocularInitialization {
  public:
   static constexpr std::size_t kMaxFrames = 300;
   static constexpr std::size_t kMostKept = 1200;  // of all maps, when another one begins
   static constexpr int kYoungKeyFrames = 5;
 
-  // The helper shares the initializer's work, and has to outlive this.
+  // The helper shares the initializer's work, and must outlive this object.
   MonocularInitialization(const CameraAndPyramid& imaging,
                           const SlamOptions& options,
                           HelperThread* helper = nullptr);
 
   InitializationResult Offer(FrameId id, const ExtractedFrame& frame);
-  // What the initializer has done so far.
+  // Counts of the initializer so far.
   const InitializationCounts& counts() const { return initializer_->counts(); }
-  // Begins anew: the initializer and the frames that wait are forgotten.
+  // Begins anew: the initializer and the waiting frames are discarded.
   void Restart();
-  // Tells of a frame that was tracked. Only frames of a young map are kept.
+  // Adds a tracked frame. Only frames of a recent map are stored.
   void Tracked(const TrackingResult& result);
-  // A keyframe was given up: frames that refer to it refer to its parent from now on.
+  // Handles a dropped keyframe: frames that refer to it refer to its parent from now on.
   void ReparentPoses(KeyFrameId gone, KeyFrameId parent, const RelativePose& gone_from_parent);
-  // Tells that a map began with `start`, and that the frames that wait belong to it.
+  // Handles the start of a map by `start`, to which the waiting frames belong.
   void MapStarted(MapId map, const InitialMapEdit& start);
 
-  // Tells that what is tracked from now on is in a map of before.
+  // Handles the return to an earlier map.
   void MapLeft();
 
-  // Returns the poses of the kept frames in the maps started since the last call, each map's newest
-  // frame first. Frames that waited are searched near the place that their successors predict.
-  // Frames that were tracked are searched near their old place, among the landmarks around the
-  // keyframe that they refer to. Keyframes are left out, as are frames that are not found, or not
-  // reached before `stop`.
+  // Returns the poses of the stored frames in the maps started since the last call, each map's
+  // newest frame first. Waiting frames are searched near the pose predicted by their successors,
+  // tracked frames near their old pose, among the landmarks around their reference keyframe.
+  // Keyframes are left out, as are frames that are not found, or not reached before `stop`.
   std::vector<EarlierFrame> Locate(const Atlas& atlas, const StopCheck& stop = {});
 
  private:
@@ -93,9 +92,9 @@ class MonocularInitialization {
   std::unique_ptr<Initializer> initializer_;
   std::deque<KeptFrame> waiting_;
   std::vector<Start> starts_;
-  // Keyframes still to come until the newest map is no longer young.
+  // Keyframes still to come until the newest map is no longer recent.
   int young_keyframes_ = 0;
-  // Frames that may still be kept until then.
+  // Frames that may still be stored until then.
   std::size_t young_frames_ = 0;
 };
 

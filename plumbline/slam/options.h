@@ -17,8 +17,8 @@
 
 namespace plumbline {
 
-// How the stages run: one after the other; in threads with the same results; or live, where frames
-// wait for mapping only at the start of a map.
+// Execution of the stages: one after the other; in threads with the same results; or live, waiting
+// for mapping only at the start of a map.
 enum class RunMode { kInline, kLockstep, kLive };
 constexpr auto EnumNames(std::type_identity<RunMode>) {
   return std::array{std::pair{RunMode::kInline, "inline"},
@@ -26,7 +26,7 @@ constexpr auto EnumNames(std::type_identity<RunMode>) {
                     std::pair{RunMode::kLive, "live"}};
 }
 
-// How the stages run, and the seed of all random numbers.
+// Execution of the stages, and the seed of all random numbers.
 struct ExecutionOptions {
   RunMode mode = RunMode::kLockstep;
   int seed = 0;
@@ -60,10 +60,10 @@ struct SlamOptions {
   ExecutionOptions slam;
 };
 
-// Throws InputError for a value out of its range, and where options contradict each other: neither
-// points nor lines, a least value that is not below the greatest (depths, frames between
-// keyframes), or a kind of line that this build does not have
-// (docs/adr/0031-one-method-of-lines.md). Projected ends are there for odometry in every build.
+// Throws InputError for a value out of its range, and if options contradict each other: neither
+// points nor lines, a minimum not below its maximum (depths, frames between keyframes), or a kind
+// of line that this build does not have (docs/adr/0031-one-method-of-lines.md). Projected ends are
+// available for odometry in every build.
 void CheckOptions(const SlamOptions& options);
 
 template <class Visitor>

@@ -20,15 +20,15 @@
 
 namespace plumbline {
 
-// Feeds frames to a System in the way its slam.mode says.
+// Feeds frames to a System in the mode slam.mode.
 //
 //   inline    Feed does everything, in the caller's thread.
-//   lockstep  Feed measures features in the caller's thread and leaves tracking to another one,
-//             which is at most two frames behind; when it is, Feed waits. The bytes
-//             are those of inline.
-//   live      Feed only hands the frame over. Two frames may wait; one more, and the oldest of
-//             them is left out (FrameStatus::kSkipped, reason kDropped). Where frames have to wait,
-//             less is done for them (LoadControl), which their records tell. Not reproducible.
+//   lockstep  Feed extracts features in the caller's thread and leaves tracking to another one,
+//             which is at most two frames behind; if it is, Feed waits. The bytes are those of
+//             inline.
+//   live      Feed only queues the frame. Two frames may wait; with one more, the oldest of them
+//             is left out (FrameStatus::kSkipped, reason kDropped). If frames have to wait, less
+//             work is done for them (LoadControl), as their records say. Not reproducible.
 //
 // A live run:
 //
@@ -39,58 +39,57 @@ namespace plumbline {
 //   pipeline.Finish();
 //   if (const auto map = system.MainMap()) Use(system.FinalTrajectory(*map));
 //
-// One thread feeds. Until Finish the system belongs to the pipeline: nobody else uses it but the
-// observer, which may call what System has for the thread that tracks. What a stage throws comes
-// out of the next Feed, Skip or Finish; after that the pipeline takes no more frames.
+// One thread feeds. Until Finish only the pipeline uses the system, and its observer, which may
+// call the functions of System that are for the tracking thread. Exceptions of a stage are rethrown
+// by the next Feed, Skip or Finish; after that the pipeline takes no more frames.
 class Pipeline {
  public:
-  // Called for every frame in order, in the thread that tracks, as soon as the pose is known. It
-  // gets the frame's record and view, which are valid during the call; the view is empty where the
-  // frame was skipped. It must be quick in live mode.
+  // Called for every frame in order, in the tracking thread, as soon as the pose is known. Its
+  // arguments, the frame's record and view, are valid during the call; the view of a skipped frame
+  // is empty. It must be quick in live mode.
   using Observer = std::function<void(const FrameRecord&, const FrameView&)>;
-  // The reason in the records of frames that a live run left out because they waited too long.
+  // Reason in the records of frames that a live run left out because they waited too long.
   static constexpr const char* kDropped = "dropped";
-  // The most frames with images that wait for tracking.
+  // Most frames with images that wait for tracking.
   static constexpr std::size_t kMaxWaiting = 2;
 
-  // Starts the thread that tracks, where the mode has one. The system must live longer than the
-  // pipeline, and the observer must not be empty. Throws BugError where the system is to work
-  // without threads (Execution) and the mode is not live.
+  // Starts the tracking thread, if the mode has one. The system must outlive the pipeline, and the
+  // observer must not be empty. Throws BugError if the system is to work without threads
+  // (Execution) and the mode is not live.
   Pipeline(System& system, Observer observer);
-  // Leaves undone all jobs that have not begun, unless Finish was called.
+  // Drops all jobs that have not begun, unless Finish was called.
   ~Pipeline();
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
-  // Takes the next frame, in order of time. What System::Process would throw for it is thrown by
-  // this call or a later one.
+  // Takes the next frame, in order of time. Exceptions that System::Process would throw for it are
+  // thrown by this call or a later one.
   void Feed(SensorFrame frame);
-  // Tells of a frame that could not be read. `reason` goes into its record, for example
+  // Adds a frame that could not be read. `reason` goes into its record, for example
   // "image_unreadable"; it must not be empty (BugError).
   void Skip(std::int64_t stamp_ns, const std::string& reason);
   // Waits until all frames handed over so far are tracked, or until a failure ends the tracking.
   void Drain();
-  // Does all jobs that wait, and the mapping that belongs to them (System::Finish, which gets
-  // `stop`). After a failure it completes the mapping of the frames before, then rethrows. To be
-  // called after the last frame.
+  // Executes all waiting jobs and the mapping of their frames (System::Finish, which gets `stop`).
+  // After a failure it completes the mapping of the frames before, then rethrows. To be called
+  // after the last frame.
   void Finish(const StopCheck& stop = {});
 
-  // Does the next job in the caller's thread; returns false when none waits. For live runs without
-  // threads (Execution of the System).
+  // Executes the next job in the caller's thread; returns false if none waits. For live runs
+  // without threads (Execution of the System).
   bool WorkOnce();
 
  private:
-  // A frame on its way to tracking. It is measured, or raw (live), or has no images because of
-  // `reason`.
+  // A frame waiting for tracking: with features, raw (live), or without images because of `reason`.
   struct Job {
     std::int64_t stamp_ns = 0;
     std::optional<ExtractedFrame> measured;
     std::optional<SensorFrame> raw;
     StageClock clock;  // times a raw frame since its arrival
     Execution::Clock::time_point arrival;
-    double interval = 0;   // seconds since the frame before was taken; 0: unknown
-    std::string reason;    // why it has no images to work on; empty where it has some
-    bool dropped = false;  // it had images, and waited too long
+    double interval = 0;   // seconds since the previous frame; 0: unknown
+    std::string reason;    // why it has no images; else empty
+    bool dropped = false;  // true if it had images, and waited too long
 
     bool HasFrame() const { return reason.empty(); }
   };
@@ -118,8 +117,7 @@ class Pipeline {
   bool busy_ = false;
   bool stop_ = false;
   std::exception_ptr failure_;
-  // The thread does not run in inline mode and step by step. It is declared last, so that it ends
-  // before what it uses.
+  // Does not run in inline mode and step by step. Declared last: ends before the members it uses.
   std::jthread worker_;
 };
 

@@ -19,41 +19,39 @@
 
 namespace plumbline {
 
-// Called with each keyframe that was compared with the newest one and what became of it, before the
-// maps change. An attempt without a refusal closes a loop or joins the maps of the two.
+// Called with each comparison of the newest keyframe with an older one and its result, before the
+// maps change. An attempt without a refusal closes a loop or merges the maps of the two.
 using PlaceObserver = std::function<void(const Atlas&, const LoopAttempt&)>;
 
-// Knows what the keyframes of all maps show, and makes one place of what was seen twice. It closes
-// loops within the active map, and joins that map with another map of the atlas that shows the same
-// place.
+// Recognizes places by an index over the keyframes of all maps: closes loops within the active map,
+// and merges that map with another map of the atlas that shows the same place.
 //
 // Deterministic; for one thread.
 class PlaceRecognition {
  public:
   PlaceRecognition(const CameraAndPyramid& imaging, const LoopOptions& options);
 
-  // Learns what keyframes have come into the maps since the last call, and forgets those that left.
+  // Adds keyframes new in the maps since the last call, and removes those that left.
   void Follow(const Atlas& atlas);
 
-  // Returns where an image may have been taken: the keyframes of all maps that show what it shows,
-  // the most alike first. Maps that were withdrawn are left out. The result is valid as long as the
-  // maps are.
+  // Returns relocalization candidates for an image: the keyframes of all maps most similar in
+  // appearance, the most similar first. Withdrawn maps are left out. The result is valid as long as
+  // the maps are.
   std::vector<PlaceToTry> PlacesOf(const Atlas& atlas,
                                    const Features& features,
                                    std::size_t most) const;
 
-  // Whether a new keyframe shows that the unit of length of the active map runs away
-  // (FindScaleConflict). This looks only at maps of one camera, at their first kYoungKeyFrames
-  // keyframes, and for each at the three older keyframes that look most alike. If so, the map is
-  // withdrawn: no map is joined with it any more.
+  // Returns true if a new keyframe shows that the scale of the active map drifts
+  // (FindScaleConflict), and then withdraws the map: no map is merged with it any more. Applies
+  // only to maps of one camera and their first kYoungKeyFrames keyframes; each is compared with the
+  // three older keyframes most similar in appearance.
   static constexpr std::int64_t kYoungKeyFrames = 30;
   bool Withdraws(const Atlas& atlas, KeyFrameId id);
   bool IsWithdrawn(MapId map) const { return withdrawn_.contains(map); }
 
-  // Looks for an older keyframe that shows what a new one of the active map shows; Follow() must
-  // have seen the new one. Returns the older keyframe where that changed maps at large. Then the
-  // landmarks of both are fused, and both are in the active map, which may be another one than
-  // before. The caller has to adjust the map.
+  // Compares a new keyframe of the active map with older ones; Follow() must have added it. Returns
+  // the older keyframe if maps changed at large. Then the landmarks of both are fused, and both are
+  // in the active map, which may be another one than before. The caller has to adjust the map.
   std::optional<KeyFrameId> Recognize(Atlas& atlas, KeyFrameId id);
 
   void Observe(PlaceObserver observer) { observer_ = std::move(observer); }

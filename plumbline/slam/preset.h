@@ -10,9 +10,8 @@
 
 namespace plumbline {
 
-// A set of options under a name: the system that a paper describes. The file
-// configs/presets/NAME.yaml holds the options; it is compiled into the library, as camera files
-// are.
+// Named set of options: the system of a paper. The options are in configs/presets/NAME.yaml, which
+// is compiled into the library, as camera files are.
 struct Preset {
   std::string name;
   std::string help;           // one sentence
@@ -23,7 +22,7 @@ struct Preset {
 // Returns all presets in the order of their names.
 const std::vector<Preset>& Presets();
 
-// Returns the preset of this name. Throws InputError, which names all presets, where there is none.
+// Returns the preset of this name. Throws InputError, which names all presets, if it is unknown.
 const Preset& FindPreset(std::string_view name);
 
 // Sets the options of a preset, and returns it. Throws as FindPreset.

@@ -11,13 +11,13 @@
 
 namespace plumbline {
 
-// Returns the options that decided about the results of saved maps; the default options where the
-// file does not hold any. Throws InputError, which names `source`, where this version
-// of the program does not know an option or a value.
+// Returns the options that determined the results of saved maps; the default options if the file
+// has none. Throws InputError, which names `source`, if this version of the program does not know
+// an option or a value.
 SlamOptions SavedOptions(const AtlasContext& context, const std::string& source);
 
-// Returns SavedOptions after `accept`, where given, has accepted them. Where one of the two throws
-// InputError, returns the default options and tells `remark` the error and what is done instead:
+// Returns SavedOptions, after `accept` (if given) has accepted them. If one of the two throws
+// InputError, returns the default options and reports the error and its consequence to `remark`:
 // "<error>; <instead>".
 SlamOptions SavedOptionsOrDefault(const AtlasContext& context,
                                   const std::string& source,
@@ -25,10 +25,9 @@ SlamOptions SavedOptionsOrDefault(const AtlasContext& context,
                                   const std::function<void(const std::string&)>& remark,
                                   const std::function<void(SlamOptions&)>& accept = {});
 
-// Returns how the features of saved maps were measured in another way than those of others or of a
-// run, one line each: "features.line_count: 200 in the map, 100 now". Empty where they were
-// measured in the same way, or where nothing is known. Options of the map that this version does
-// not know are one line, too.
+// Returns the differences in feature extraction between saved maps and others or a run, one line
+// each: "features.line_count: 200 in the map, 100 now". Empty if there are none, or if nothing is
+// known. Options of the map that this version does not know are one line, too.
 std::vector<std::string> FrontEndDifferences(const AtlasContext& of_map, const AtlasContext& now);
 
 }  // namespace plumbline

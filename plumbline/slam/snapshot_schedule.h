@@ -9,16 +9,17 @@
 
 namespace plumbline {
 
-// Says which frame sees the result of which task of the mapper. When a keyframe takes effect is
-// part of the algorithm, not of the machine's speed: a task submitted at frame f shows from frame
-// f + 1 + lag on, the start of a map at once. In a live run only the start of a map is waited for.
+// Maps each frame to the newest task of the mapper whose result it sees. The frame at which a
+// keyframe takes effect is part of the algorithm and does not depend on the machine's speed: a task
+// submitted at frame f takes effect at frame f + 1 + lag, the start of a map at once. In a live run
+// only the start of a map is waited for.
 //
 // Tasks are numbered from 1 in the order of submission, frames from 0.
 class SnapshotSchedule {
  public:
   SnapshotSchedule(RunMode mode, std::int64_t lag) : mode_(mode), lag_(lag) {}
 
-  // Enters a task that is submitted at a frame.
+  // Adds a task submitted at a frame.
   void Add(std::int64_t task, std::int64_t frame, bool starts_map) {
     if (mode_ == RunMode::kLive && !starts_map) return;
     dues_.push_back({task, starts_map ? frame : frame + 1 + lag_});
@@ -27,8 +28,8 @@ class SnapshotSchedule {
   void Remove(std::int64_t task) {
     if (!dues_.empty() && dues_.back().task == task) dues_.pop_back();
   }
-  // Returns the newest task whose result the frame is to see, 0 if there is none beyond those of
-  // earlier calls. Frames come in order.
+  // Returns the newest task whose result the frame sees; 0 if there is none beyond those of earlier
+  // calls. Frames come in order.
   std::int64_t DueAt(std::int64_t frame) {
     std::int64_t task = 0;
     for (const SnapshotDue& due : dues_) {
@@ -42,7 +43,7 @@ class SnapshotSchedule {
  private:
   struct SnapshotDue {
     std::int64_t task = 0;
-    std::int64_t frame = 0;  // first frame that is to see the task's result
+    std::int64_t frame = 0;  // first frame that sees the task's result
   };
   RunMode mode_;
   std::int64_t lag_;

@@ -9,22 +9,22 @@
 
 namespace plumbline {
 
-// How long one stage took for a frame.
+// Duration of one stage for a frame.
 struct StageTime {
   std::string stage;
   double milliseconds = 0;
 };
 
-// Times the stages that one frame passes, one after the other, from the moment the clock is made.
+// Times the successive stages of one frame, from the construction of the clock.
 class StageClock {
  public:
-  // Ends a stage, which began when the one before ended.
+  // Ends a stage, which began at the end of the previous one.
   void Done(const std::string& stage) {
     const auto now = Clock::now();
     times_.push_back({stage, Milliseconds(now - last_)});
     last_ = now;
   }
-  // Adds a time that was measured elsewhere and is not part of the total.
+  // Adds a time measured elsewhere, which is not part of the total.
   void Add(const std::string& stage, double milliseconds) {
     times_.push_back({stage, milliseconds});
   }

@@ -19,9 +19,9 @@
 
 namespace plumbline {
 
-// The stages of a System, whose header does not bring theirs along.
+// The stages of a System, separate so that its header does not include theirs.
 struct SystemStages {
-  // Throws InputError as System does.
+  // Throws InputError like System.
   SystemStages(const Calibration& calibration,
                const SlamOptions& options,
                const Execution& execution);
@@ -30,15 +30,14 @@ struct SystemStages {
   CameraAndPyramid imaging;
   MapperThread mapping;
   Tracker tracker;
-  std::unique_ptr<MonocularInitialization>
-      monocular_initialization;  // null where depth is measured
+  std::unique_ptr<MonocularInitialization> monocular_initialization;  // null if depth is measured
 };
 
-// Returns the pose of the tracker's camera, which is the rectified one, at a map's first frame. The
-// map's world is the left camera as delivered.
+// Returns the pose of the tracker's (rectified) camera at a map's first frame. The map's world is
+// the left camera as delivered.
 Rigid3 WorldFromFirstCamera(const Rectifier& rectifier);
 
-// A frame whose pose was returned, and which still leaves something to do for the map.
+// A frame whose pose was returned, with work left for the map.
 struct UnfinishedFrame {
   TrackingResult result;
   LoadLevel shed = LoadLevel::kNothing;

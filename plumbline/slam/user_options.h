@@ -6,10 +6,10 @@
 
 namespace plumbline {
 
-// Whether an option, by its dotted key, is among those that users set: what is used, how much of
-// it, what a run does when it is lost or comes back, and the choices that experiments name. The
-// other options are for those who work on the methods; their defaults are measured. docs/options.md
-// explains each user option by its visible effect.
+// Returns true if an option, by its dotted key, is a user option: methods, amounts, behaviour when
+// a run is lost or returns, and the choices named by experiments. The other options are for
+// developers of the methods; their defaults are measured. docs/options.md explains each user option
+// by its visible effect.
 bool IsUserOption(std::string_view key);
 
 }  // namespace plumbline
