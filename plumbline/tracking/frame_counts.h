@@ -4,7 +4,7 @@
 
 namespace plumbline {
 
-// How many landmarks a frame was matched with, and how many of these agree with its pose.
+// Numbers of landmark matches of a frame, and of their inliers.
 struct FrameCounts {
   int matched_points = 0, matched_lines = 0;
   int inlier_points = 0, inlier_lines = 0;

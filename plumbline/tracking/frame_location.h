@@ -11,18 +11,18 @@
 
 namespace plumbline {
 
-// The pose of a frame in a map, and the matches that it was found by.
+// The pose of a frame in a map, and the matches behind it.
 struct LocatedFrame {
   Rigid3 cam_from_world;
   FrameCounts counts;
 };
 
-// Finds the pose of a frame, which may come out of turn, in a map that is known already. Landmarks
-// of the snapshot are searched around the places where the predicted pose puts them (with
-// tracking's first radius, then with its wide one) and a pose is estimated; with this pose they are
-// searched again with the usual radius, and the pose is estimated again. Both poses must be
-// accepted as tracking accepts one without prediction (TrackingOptions::max_pose_sigma). Returns
-// nullopt where the frame is not found.
+// Finds the pose of a frame, possibly out of order, in a known map. Landmarks of the snapshot are
+// searched around their projections by the predicted pose (with tracking's first radius, then with
+// its wide one) and a pose is estimated; with this pose they are searched again with the usual
+// radius, and the pose is estimated again. Both poses must pass the test that tracking applies to a
+// pose without prediction (TrackingOptions::max_pose_sigma). Returns nullopt if the frame is not
+// found.
 std::optional<LocatedFrame> LocateFrame(const CameraAndPyramid& imaging,
                                         const PoseEstimator& estimator,
                                         const FrameFeatures& image,

@@ -9,9 +9,9 @@
 
 namespace plumbline {
 
-// How soon and how late keyframes follow each other.
+// Limits of the interval between keyframes.
 struct KeyFramePolicyOptions {
-  int max_frames = 20;  // a keyframe is made at the latest after so many frames
+  int max_frames = 20;  // a keyframe is made at the latest after this number of frames
   int min_frames = 2;   // no keyframe is made sooner, unless tracking is about to fail
 };
 
@@ -26,35 +26,35 @@ void VisitFields(Visitor&& visit, KeyFramePolicyOptions& o) {
         Range{1, 1000});
 }
 
-// Why a frame becomes a keyframe.
+// Reason for a keyframe.
 enum class KeyFrameReason {
-  kNone,              // it does not
-  kFewLandmarks,      // it shows too few landmarks of the last keyframe
-  kAlmostLost,        // it shows so few of them that tracking is about to fail
-  kNeedsClosePoints,  // it tracks too few near points, and sees near points that the map lacks
-  kLongAgo            // max_frames have passed since the last keyframe
+  kNone,          // no keyframe
+  kFewLandmarks,  // the frame shows too few landmarks of the last keyframe
+  kAlmostLost,    // even fewer: tracking is about to fail
+  // too few near points are tracked, and near points are seen that the map lacks
+  kNeedsClosePoints,
+  kLongAgo  // max_frames have passed since the last keyframe
 };
 
-// What the decision about a keyframe depends on: how the frame that was just tracked compares with
-// the last keyframe.
+// Input of the keyframe decision: the last tracked frame compared with the last keyframe.
 struct KeyFrameSituation {
   int frames_since_keyframe = 0;
-  // Number of the `reference_landmarks` that the frame shows as well.
+  // Number of the `reference_landmarks` visible in the frame as well.
   int shared_landmarks = 0;
-  // Well observed points and lines that the last keyframe shows.
+  // Well observed points and lines of the last keyframe.
   int reference_landmarks = 0;
-  int close_tracked = 0;    // points with good disparity that show a map point
-  int close_untracked = 0;  // points with good disparity that show no map point
-  bool monocular = false;   // no depth is measured
-  // How many features the frame was measured with, relative to the usual number and to that of the
-  // last keyframe. Both are less than 1 only where a live run sheds features; the counts above are
-  // then compared with limits that are lower by the same share.
+  int close_tracked = 0;    // points with good disparity matched with a map point
+  int close_untracked = 0;  // points with good disparity without a map point
+  bool monocular = false;   // true if no depth is measured
+  // Number of extracted features relative to the usual number and to that of the last keyframe.
+  // Both are less than 1 only if a live run sheds features; the limits of the counts above are then
+  // lower by the same share.
   double share_of_usual = 1;
   double share_of_reference = 1;
 };
 
-// Decides whether a tracked frame becomes a keyframe, and why. The decision depends only on what
-// the camera sees, not on how busy the machine is.
+// Decides whether a tracked frame becomes a keyframe, and why. The decision depends only on the
+// camera's measurements, not on the load of the machine.
 KeyFrameReason DecideKeyFrame(const KeyFrameSituation& situation,
                               const KeyFramePolicyOptions& options);
 

@@ -9,13 +9,12 @@
 
 namespace plumbline {
 
-// Returns what the decision about a keyframe depends on for a frame that was tracked against a
-// snapshot: how much the frame shows of what the snapshot's keyframe shows, and how many near
-// points it has.
+// Returns the input of the keyframe decision for a frame tracked against a snapshot: its share of
+// the landmarks of the snapshot's keyframe, and its number of near points.
 //
-//   association    the matches that the frame was tracked by
-//   feature_share  share of the usual number of features that the frame was measured with
-//   monocular      no depth is measured
+//   association    matches of the frame
+//   feature_share  share of the usual number of features that was extracted
+//   monocular      true if no depth is measured
 KeyFrameSituation SituationOf(const Frame& frame,
                               const LandmarkMatches& association,
                               const MapSnapshot& snapshot,

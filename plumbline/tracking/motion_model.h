@@ -10,31 +10,31 @@
 
 namespace plumbline {
 
-// Predicts the pose of the next frame by a constant velocity, with a covariance for the changes of
-// velocity that are to be expected.
+// Predicts the pose of the next frame by constant velocity, with a covariance for the expected
+// changes of velocity.
 class MotionModel {
  public:
-  // Predicts the pose of the frame `seconds` after the last one. The covariance is that of the last
-  // pose and of a velocity that changes as hands and cars change it. Where the motion is not known,
+  // Predicts the pose of the frame `seconds` after the last one. The covariance combines that of
+  // the last pose with the accelerations of handheld cameras and cars. If the motion is unknown,
   // the prediction is the last pose without information.
   PosePrior Predict(const Rigid3& last_pose, double seconds) const;
 
-  // Learns the velocity from the last pose and that of the frame `seconds` later. Returns the
+  // Updates the velocity by the last pose and that of the frame `seconds` later. Returns the
   // covariance of the latter, of its left perturbation [rotation, translation].
   const Matrix6d& Observe(const Rigid3& last_pose, const PoseEstimate& pose, double seconds);
-  // Begins from a velocity alone (left tangent per second); how well the last pose is known is then
+  // Begins with a velocity alone (left tangent per second); the covariance of the last pose is then
   // unknown.
   void Begin(const Vector6d& velocity);
   void Forget();
-  // Changes the unit of length: all lengths are multiplied by `scale`.
+  // Changes the scale: all lengths are multiplied by `scale`.
   void ChangeUnit(double scale);
 
   bool IsKnown() const { return velocity_.has_value(); }
-  // Whether the deviations of the last pose (SigmaOfPose) are known and at most `limit`.
+  // Returns true if the deviations of the last pose (SigmaOfPose) are known and at most `limit`.
   bool LastPoseIsKnownTo(double limit) const;
 
  private:
-  // The covariance of the last pose, and the depth of the scene there.
+  // Covariance of the last pose, and scene depth there.
   struct Spread {
     Matrix6d covariance;
     double scene_depth = 0;

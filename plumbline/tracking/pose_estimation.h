@@ -11,21 +11,22 @@
 
 namespace plumbline {
 
-// The pose of a frame, how well it is known, and how many matches agree with it.
+// Pose of a frame, its uncertainty, and its numbers of inliers.
 struct PoseEstimate {
   Rigid3 cam_from_world;
   // Information of the inliers and the prior about the left perturbation [rotation, translation].
   Matrix6d information = Matrix6d::Zero();
   double scene_depth = 0;  // median depth of the inliers
-  // Deviation of the pose by inliers and prior together; infinite where these do not fix the pose.
+  // Deviation of the pose by inliers and prior together; infinite if these do not determine the
+  // pose.
   PoseUncertainty sigma;
   int inlier_points = 0;
   int inlier_lines = 0;
   bool converged = false;
-  int cut_lines = 0;  // lines of which only a piece took part, in any image
+  int cut_lines = 0;  // lines of which only a piece was used, in any image
 
   int Inliers() const { return inlier_points + inlier_lines; }
-  // Whether there are enough inliers, and these and the prior fix all six degrees of freedom.
+  // Returns true with enough inliers, if these and the prior determine all six degrees of freedom.
   bool Accepted(int min_inliers, double max_sigma) const {
     return Inliers() >= min_inliers && converged && sigma.AtMost(max_sigma);
   }
@@ -33,7 +34,7 @@ struct PoseEstimate {
 
 // Estimates poses of the frames of one camera (or rig) from matches with landmarks.
 //
-// Thread-safe, since it keeps nothing but the camera and its options.
+// Thread-safe, since it stores only the camera and its options.
 class PoseEstimator {
  public:
   PoseEstimator(const RectifiedCamera& camera,
@@ -41,17 +42,16 @@ class PoseEstimator {
                 const CuttingOptions& cutting)
       : camera_(camera), lines_(lines), cutting_(cutting) {}
 
-  // Returns the pose that best fits the matches and the prior, starting from `initial`. Matches
-  // that turn out to be outliers are taken out of the association. Each line counts once, however
-  // many images of the rig show it. With a method in `cutting` pieces of the lines decide about the
-  // pose (line_cutting.h), but whole lines decide which matches are outliers.
+  // Returns the pose that best fits the matches and the prior, starting from `initial`. Outliers
+  // are removed from the association. Each line counts once, in however many images of the rig it
+  // is visible. With a method in `cutting` the pose is estimated from pieces of the lines
+  // (line_cutting.h), but outliers are determined by whole lines.
   PoseEstimate Estimate(const Features& features,
                         const Rigid3& initial,
                         const PosePrior& prior,
                         LandmarkMatches& association) const;
 
-  // Removes the matches that do not agree with a pose: those with a chi2 above gate_scale times its
-  // limit of 95 %.
+  // Removes the outliers of a pose: matches with a chi2 above gate_scale times its limit of 95 %.
   void DropDisagreeing(const Features& features,
                        const Rigid3& cam_from_world,
                        double gate_scale,

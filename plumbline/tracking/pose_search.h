@@ -15,59 +15,59 @@
 
 namespace plumbline {
 
-// The last frame that had a pose, moved with the map as that is now, and the landmarks it showed.
+// The last frame with a pose, moved with the map to its current state, and the landmarks it showed.
 struct LastFrame {
   Frame frame;
   LandmarkMatches association;
 };
 
-// A pose that was found for a frame, with the matches that it was found by.
+// Pose found for a frame, with its matches.
 struct PoseAttempt {
   LandmarkMatches association;
-  // Landmarks of the map that should be visible; empty where the map was not searched.
+  // Landmarks of the map that should be visible; empty if the map was not searched.
   ExpectedLandmarks expected;
   FrameCounts counts;  // counts of the matches
   PoseEstimate pose;
 };
 
-// Fewest points and lines that fix a pose: the first number holds for a pose near the predicted
-// one, the second for a pose without prediction.
+// Fewest points and lines that determine a pose: the first number holds for a pose near the
+// predicted one, the second for a pose without prediction.
 inline constexpr int kFewestInliers = 4;
 inline constexpr int kFewestUnpredictedInliers = 10;
-// The search is larger by this factor where the first one found too little.
+// Factor on the search radius if the first search found too little.
 inline constexpr double kWideFactor = 3;
 
-// Returns the search around predicted places. Its radius is how far a prediction may be off, times
-// `factor`.
+// Returns the search around predicted positions. Its radius is the largest error of a prediction,
+// times `factor`.
 ProjectionSearchOptions FirstSearch(double factor = 1);
 
-// Whether more matches agree with a pose than chance explains. A pose that is fitted to three
-// points agrees with these whether it is right or wrong. Each of the other matches agrees with a
-// wrong pose where it happens to lie within its gate, so that their number is binomial. The number
-// that agrees has to be three standard deviations above its mean.
+// Returns true if more matches agree with a pose than by chance. A pose fitted to three points
+// agrees with these, right or wrong. Each of the other matches agrees with a wrong pose if it
+// happens to lie within its gate, so that their number is binomial. The number of inliers must be
+// three standard deviations above its mean.
 bool MoreThanChance(int agreeing, int matches);
 
-// Finds what a frame shows and its pose from it: first the landmarks of the last frame near where a
-// prediction puts them, or by descriptor where there is no prediction, then the rest of the local
-// map. Nothing is kept from frame to frame.
+// Finds the matches and the pose of a frame: first by the landmarks of the last frame near their
+// predicted positions, or by descriptors without a prediction, then by the rest of the local map.
+// Stateless.
 class PoseSearch {
  public:
   PoseSearch(const CameraAndPyramid& imaging,
              const TrackingOptions& options,
              const PoseEstimator& estimator);
 
-  // Finds a pose from the landmarks that the last frame showed, and from points and lines made from
-  // its depths, near where `predicted` puts them. Landmarks of more uncertain depth are used where
-  // the others do not fix the pose or are few. Returns nullopt where no pose is accepted with which
-  // more matches agree than by chance.
+  // Finds a pose from the landmarks of the last frame, and from points and lines made from its
+  // depths, near their projections by `predicted`. Landmarks of more uncertain depth are used if
+  // the others are few or do not determine the pose. Returns nullopt if no pose is accepted with
+  // more matches than by chance.
   std::optional<PoseEstimate> FromPrediction(const Frame& frame,
                                              const PosePrior& predicted,
                                              const LastFrame& last,
                                              const MapSnapshot& snapshot,
                                              LandmarkMatches& association) const;
-  // Finds a pose by comparing descriptors with the newest keyframe (in odometry with the last
-  // frame). Starts from the pose with which most points agree, or where there is none from the last
-  // pose. Returns nullopt where no pose is accepted.
+  // Finds a pose by matching descriptors with the newest keyframe (in odometry with the last
+  // frame). Starts from the pose with most inlier points, or if there is none from the last pose.
+  // Returns nullopt if no pose is accepted.
   std::optional<PoseEstimate> FromAppearance(const Frame& frame,
                                              const LastFrame& last,
                                              const MapSnapshot& snapshot,
@@ -91,21 +91,21 @@ class PoseSearch {
   bool Accepted(const PoseEstimate& pose) const {
     return pose.Accepted(kFewestInliers, options_.max_pose_sigma);
   }
-  // Whether more matches agree with a pose than chance lets agree with a wrong one. Lines do not
-  // count against it: they are easily taken for their neighbours, so that many disagree with right
-  // poses as well.
+  // Returns true if more matches agree with a pose than would by chance with a wrong one.
+  // Disagreeing lines do not count: lines are easily confused with their neighbours, so that many
+  // disagree with right poses as well.
   static bool Agreed(const PoseEstimate& pose, const FrameCounts& counts) {
     return MoreThanChance(pose.Inliers(), counts.matched_points + pose.inlier_lines);
   }
 
  private:
-  // Which landmarks are made from the last frame's depths. kKnown: those with a well known depth.
+  // Landmarks made from the last frame's depths. kKnown: only those with a well known depth.
   // kUncertain: those with an uncertain depth as well. kGuessed: in addition lines without depth,
-  // which are put at the depth of the scene.
+  // which get the depth of the scene.
   enum class Depths { kKnown, kUncertain, kGuessed };
   struct LastSearch {
     Depths depths = Depths::kKnown;
-    double factor = 1;  // factor on the usual radius around the predicted places
+    double factor = 1;  // factor on the usual radius around the predicted positions
   };
   LandmarkMatches LastLandmarks(const LastFrame& last,
                                 const MapSnapshot& snapshot,
@@ -117,8 +117,8 @@ class PoseSearch {
                                          const MapSnapshot& snapshot,
                                          const LastSearch& how,
                                          LandmarkMatches& association) const;
-  // Returns the landmark that a feature of an earlier frame shows: `known`, a landmark of the map,
-  // or where that is nullptr one made from the feature's depth.
+  // Returns the landmark of a feature of an earlier frame: `known`, a landmark of the map, or if
+  // that is nullptr one made from the feature's depth.
   std::optional<PointCandidate> PointOf(const SnapshotPoint* known,
                                         const Frame& frame,
                                         std::size_t feature,
@@ -130,11 +130,11 @@ class PoseSearch {
   LandmarkMatches MatchAppearance(const Frame& frame,
                                   const Frame& reference,
                                   const MapSnapshot& snapshot) const;
-  // Estimates a pose that young landmarks cannot take from the established ones. Things that move
-  // make new landmarks all the time, and near the camera, where disparities say most, these outvote
-  // walls that have been known for long. Where the pose from all matches loses some of the
-  // established landmarks, although these fix a pose without the others and agree among themselves,
-  // the established ones decide, and the others count as far as they agree with them.
+  // Estimates a pose that favours established landmarks over recent ones. Moving objects make new
+  // landmarks all the time, and near the camera, where disparities are most accurate, these outvote
+  // walls known for long. If the pose from all matches loses some of the established landmarks,
+  // although these determine a pose without the others and are consistent, they alone determine the
+  // pose, and the others count if they agree with it.
   PoseEstimate EstimateFavoringEstablished(const Frame& frame,
                                            const Rigid3& initial,
                                            const PosePrior& prior,

@@ -15,10 +15,10 @@ namespace plumbline {
 // Tracking by the residual LineResidualKind::kProjectedEnds (second paper, eq. 1): members of a
 // LineMethod.
 
-// Returns the method of the product for these options: that of observed ends or, for poses, of
-// projected ends; lines from several keyframes with or without the tests of the first paper. Bundle
-// adjustment is by observed ends, so that projected ends serve odometry against the last frame
-// (TrackingReference::kLastFrame), where nothing is adjusted (CheckOptions).
+// Returns the line method for these options: observed ends or, for poses, projected ends; lines
+// from several keyframes with or without the tests of the first paper. Bundle adjustment uses
+// observed ends, so that projected ends serve odometry against the last frame
+// (TrackingReference::kLastFrame), without adjustment (CheckOptions).
 LineMethod ProductLineMethod(const LineOptions& options);
 
 // A line and two points on it, in the world.
@@ -27,10 +27,9 @@ struct LineAndEnds {
   Segment3 ends;
 };
 
-// Makes a measurement serve residuals that are the distances of the projected ends from the
-// measured line: first the covariance that the measured line gives them (ProjectedEndsCovariance),
-// then, with information, what the uncertainty of the 3D line adds. For scalar weighting the mean
-// of the two variances; for none nothing changes.
+// Converts a measurement for residuals that are the distances of the projected ends from the
+// measured line: sets their covariance (ProjectedEndsCovariance) and, with information, adds that
+// of the 3D line. For scalar weighting the mean of the two variances; for none nothing changes.
 void UseProjectedEnds(const RectifiedCamera& camera,
                       const Rigid3& cam_from_world,
                       const LineAndEnds& line,
@@ -38,16 +37,16 @@ void UseProjectedEnds(const RectifiedCamera& camera,
                       const LineWeights& weights,
                       LineMeasurement& measurement);
 
-// Gives a match the part of the line's interval for its ends that the camera can see from the
-// initial pose, since an end behind the camera has no projection, or all of it where no part is
-// visible; and the covariance that UseProjectedEnds makes of it.
+// Sets the ends of a match to the part of the line's interval visible to the camera from the
+// initial pose, since an end behind the camera has no projection, or to the whole interval if no
+// part is visible; and sets its covariance by UseProjectedEnds.
 void WeighProjectedMatch(const PoseProblem& problem,
                          const LineModel& line,
                          const LineWeights& weights,
                          PoseProblem::LineMatch& match);
-// SolvePose by the distances of the projected ends of each match.
+// SolvePose with the distances of the projected ends of each match.
 PoseOnlyResult SolvePoseByProjectedEnds(const PoseProblem& problem, const PoseOnlyOptions& options);
-// Squared norm of these distances, whitened; infinite where an end is not in front of the camera.
+// Squared norm of these distances, whitened; infinite if an end is not in front of the camera.
 double ProjectedMatchChi2(const RectifiedCamera& camera,
                           const Rigid3& cam_from_world,
                           const PoseProblem::LineMatch& match);

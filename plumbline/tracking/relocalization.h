@@ -14,29 +14,29 @@
 
 namespace plumbline {
 
-// A frame whose pose in the map was found by appearance.
+// A frame with a pose found by appearance.
 struct Relocalized {
   Frame frame;  // the frame with its pose
   LandmarkMatches association;
-  KeyFrameId keyframe;  // the candidate that it was found from
+  KeyFrameId keyframe;  // candidate from which the pose was found
   FrameCounts counts;
   double scene_depth = 0;  // median depth of the inliers
 
   int Inliers() const { return counts.inlier_points + counts.inlier_lines; }
 };
 
-// A keyframe that may show the place of a frame, and the map that has this keyframe (not owned).
+// A relocalization candidate: a keyframe, and its map (not owned).
 struct PlaceToTry {
   const Map* map = nullptr;
   KeyFrameId keyframe;
 };
 
-// Finds the pose of a frame in one of some maps by appearance alone.
+// Finds the pose of a frame in one of several maps by appearance alone.
 //
-// The caller names keyframes that may show the place, from an index of places. The first few that
-// show different surroundings are tried. Each gives the pose that most matches agree with
-// (PoseFromPoints); from there the landmarks around that keyframe are searched. Where two places
-// explain the image nearly as well, neither is believed.
+// The caller supplies candidate keyframes from a place index. The first few that show different
+// areas are tried. Each gives the pose with most inliers (PoseFromPoints); from there the landmarks
+// around that keyframe are searched. If two places explain the image nearly equally well, the
+// result is empty.
 //
 // Thread-safe; the result depends on the arguments alone. Cost: some tens of milliseconds.
 class Relocalizer {
@@ -45,13 +45,13 @@ class Relocalizer {
               const TrackingOptions& tracking,
               const PoseEstimator& estimator);
 
-  // More candidates than this are of no use, since not all of them are tried.
+  // Limit of useful candidates, since not all of them are tried.
   static constexpr std::size_t kCandidates = 20;
 
-  // Finds the pose of a frame from `candidates`, which are ordered by likeness, the most alike
-  // first, and may be of several maps of one atlas. Candidates that their map does not have are
-  // passed over. The frame's pose and matches are not looked at. Two maps count as two places, even
-  // where nobody knows yet that they show the same.
+  // Finds the pose of a frame from `candidates`, ordered by similarity, the most similar first,
+  // possibly of several maps of one atlas. Candidates that have left their map are skipped. The
+  // frame's own pose and matches are not used. Two maps count as two places, even if they show the
+  // same one.
   std::optional<Relocalized> Find(const Frame& frame, std::span<const PlaceToTry> candidates) const;
 
  private:

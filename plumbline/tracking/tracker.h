@@ -23,18 +23,18 @@
 
 namespace plumbline {
 
-// Whether the tracker has no map yet, follows the camera, or has lost it.
+// State of the tracker: no map yet, tracking, or lost.
 enum class TrackerState { kInitializing, kTracking, kLost };
 
-// Why a frame has no pose.
+// Reason why a frame has no pose.
 enum class TrackingFailure {
   kNone,
   kTooFewFeatures,     // the image shows too little for a pose, or too little with depth (stereo,
                        // RGB-D) to start a map
-  kNotRelocalized,     // nothing is known of the camera's place in the map yet
-  kTooFewMatches,      // too few landmarks were found in the image
-  kTooFewInliers,      // too few of the found landmarks agree on a pose
-  kPoseNotObservable,  // the inliers do not fix the pose to tracking.max_pose_sigma
+  kNotRelocalized,     // lost, and not relocalized yet
+  kTooFewMatches,      // too few landmarks were matched
+  kTooFewInliers,      // too few of the matches agree on a pose
+  kPoseNotObservable,  // the inliers do not determine the pose to tracking.max_pose_sigma
   kMapWithdrawn        // the map proved wrong (MapSnapshot::withdrawn)
 };
 constexpr auto EnumNames(std::type_identity<TrackingFailure>) {
@@ -47,67 +47,63 @@ constexpr auto EnumNames(std::type_identity<TrackingFailure>) {
                     std::pair{TrackingFailure::kMapWithdrawn, "map_withdrawn"}};
 }
 
-// Returns the state after a frame. After too many lost frames in a row a new map is to be started.
+// Returns the state after a frame. After too many lost frames in a row a new map starts.
 TrackerState NextState(TrackerState state, bool has_pose, int lost_frames, int new_map_after);
 
-// A keyframe as the tracker made it. Its pose is relative to its parent in the snapshot that it was
-// tracked against; mapping may have moved the parent when the keyframe comes into the map.
+// A keyframe as made by the tracker. Its pose is relative to its parent in the snapshot that it was
+// tracked against; mapping may have moved the parent before it inserts the keyframe.
 struct NewKeyFrame {
   KeyFrame keyframe;
   TrackingScores scores;
-  RelativePose from_parent = {};  // used only where there is a parent
-  // The pyramid of the rectified left image, where mapping is to align points in it (PointAligner);
-  // else null.
+  RelativePose from_parent = {};  // used only with a parent
+  // Pyramid of the rectified left image, if mapping aligns points in it (PointAligner); else null.
   std::shared_ptr<const ImagePyramid> left_pyramid = nullptr;
 };
 
-// How a tracker uses a map that an earlier run made.
+// Use of a map from an earlier run.
 struct MapUse {
-  KeyFrameId next_keyframe;  // the first id that no keyframe of the map has
+  KeyFrameId next_keyframe;  // the first id unused in the map
   bool read_only = false;    // make no keyframes and start no map, however long the camera is lost
   int patience = 200;        // lost frames after which another map starts
 };
 
-// How long a lost camera is looked for before another map may start, beyond tracking.new_map_after.
+// Search time for a lost camera before another map may start, beyond tracking.new_map_after.
 struct LossPatience {
-  // Least time since the last pose. It does not hold in a map that is on trial or was made by an
-  // earlier run.
+  // Least time since the last pose. Does not apply to a map on trial or from an earlier run.
   double min_seconds = 0;
   // Frames that show too little for a pose (a covered lens, darkness) and do not count as lost.
-  // Once there was one, no map starts before the old one was asked for a frame that shows more
+  // After one of them, no map starts before relocalization was tried for a frame that shows more
   // (NotFound).
   int blind_frames = 0;
 };
 
-// What a live run tells the tracker in addition to the frame and the map.
+// Input of the tracker in a live run in addition to the frame and the map.
 struct LiveConditions {
-  // The map around an earlier keyframe, which is tried by appearance where the map gives no pose.
-  // May be null.
+  // The map around an earlier keyframe, tried by appearance if the map gives no pose. May be null.
   const MapSnapshot* earlier = nullptr;
-  // Share of the usual number of features that the frame was measured with.
+  // Share of the usual number of features that was extracted.
   double feature_share = 1;
 };
 
-// What Tracker::Track made of a frame.
+// Result of Tracker::Track.
 struct TrackingResult {
   TrackerState state = TrackerState::kInitializing;  // state after this frame
   TrackingFailure failure = TrackingFailure::kNone;
   FrameCounts counts;
-  std::optional<Rigid3> cam_from_world;  // none where the frame has no pose
+  std::optional<Rigid3> cam_from_world;  // nullopt if tracking failed
   // Covariance of the left perturbation [rotation, translation] of cam_from_world, by the inliers
-  // and the motion so far, relative to a map that counts as exact (the depths of points from a
-  // single frame do not, where tracking.point_covariance is on). None where the pose was not
-  // estimated from matches: that of a first frame is chosen, that of a monocular start is adjusted
-  // with its map.
+  // and the motion so far, relative to a map that counts as exact (except the depths of points from
+  // a single frame, if tracking.point_covariance is on). Nullopt if the pose was not estimated from
+  // matches: that of a first frame is chosen, that of a monocular start is adjusted with its map.
   std::optional<Matrix6d> covariance;
-  KeyFrameId reference;  // the keyframe that the pose refers to from now on
+  KeyFrameId reference;  // reference keyframe of the pose
   RelativePose from_reference;
   std::optional<NewKeyFrame> keyframe;
   bool starts_map = false;  // the keyframe is the first of a new map
-  // The snapshot is to be taken anew around the camera. Set only in a map that is not changed,
-  // where the frame would otherwise become a keyframe.
+  // True if the camera leaves the area of the snapshot, so that a new one is needed around it. Set
+  // only in a read-only map, for a frame that would otherwise become a keyframe.
   bool leaves_surroundings = false;
-  Frame frame;  // the frame as tracked: features, and its matches where it has a pose
+  Frame frame;  // the frame as tracked: features, and its matches if it has a pose
 };
 
 // Follows the camera: tracks one frame after the other against an immutable snapshot of the map.
@@ -118,10 +114,10 @@ struct TrackingResult {
 // together. When the prediction fails, the frame is matched by appearance with the snapshot's
 // keyframe.
 //
-// With TrackingReference::kLastFrame the last frame takes the place of the map: only points and
-// lines made from its depths are used, as in stereo odometry (PL-SLAM of Gomez-Ojeda et al., the
-// second paper's setting). No landmarks are kept. The first frame is the only keyframe, to which
-// all poses refer. This needs a camera that measures depth.
+// With TrackingReference::kLastFrame the last frame replaces the map: only points and lines made
+// from its depths are used, as in stereo odometry (PL-SLAM of Gomez-Ojeda et al., the second
+// paper's setting). No landmarks are stored. The first frame is the only keyframe, to which all
+// poses refer. This needs a camera that measures depth.
 class Tracker {
  public:
   // world_from_first_cam  pose given to the first frame of each map
@@ -131,67 +127,66 @@ class Tracker {
           const Rigid3& world_from_first_cam,
           const LossPatience& loss = {});
 
-  // Tracks a frame. `snapshot` is null exactly while the tracker has no map. The snapshot of a map
-  // that was withdrawn ends that map: the frame has no pose, and the next frames begin another map.
+  // Tracks a frame. `snapshot` is null exactly while the tracker has no map. The snapshot of a
+  // withdrawn map ends that map: the frame has no pose, and the next frames begin another map.
   TrackingResult Track(FrameId id,
                        std::int64_t stamp_ns,
                        std::shared_ptr<const FrameFeatures> indexed,
                        const MapSnapshot* snapshot,
                        const LiveConditions& live = {});
 
-  // Returns whether the next frame must know where its lines are in the right image before it is
-  // tracked, which features do not tell by themselves (ExtractFeatures). A frame that starts a map,
-  // or stands for the map (TrackingReference::kLastFrame), makes landmarks of them. Where the last
-  // pose is known less well than usual, the next one gets all that its lines tell.
+  // Returns true if the next frame needs the positions of its lines in the right image before
+  // tracking, which ExtractFeatures leaves out. A frame that starts a map, or replaces it
+  // (TrackingReference::kLastFrame), makes landmarks of its lines. If the last pose is less certain
+  // than usual, the next frame needs all information of its lines.
   bool NeedsRightLines() const;
-  // Returns whether landmarks are made of the lines of the last frame, whose result is given: the
-  // frame became a keyframe, or its pose is known less well than usual, so that the next one has to
-  // be found by its lines.
+  // Returns true if the lines of the last frame, whose result is given, become landmarks: the frame
+  // became a keyframe, or its pose is less certain than usual, so that the next frame has to be
+  // tracked by its lines.
   bool WantsRightLines(const TrackingResult& result) const;
-  // Puts features with right lines in place of those of the last frame, its result and the keyframe
-  // that it became.
+  // Replaces the features of the last frame, its result and its keyframe by features with right
+  // lines.
   void Complete(const std::shared_ptr<const FrameFeatures>& whole, TrackingResult& result);
 
-  // Begins to follow a map that was made of several frames. The snapshot is centred on its newest
-  // keyframe, which is made of the present frame.
+  // Begins to track a map made of several frames. The snapshot is centred on its newest keyframe,
+  // which is made of the present frame.
   //   velocity  of the camera there, as a left tangent per second
   TrackingResult StartFrom(const MapSnapshot& snapshot, const Vector6d& velocity);
 
-  // Begins lost in a map of an earlier run, and looks for the camera's place in it for as long as
-  // `use` allows.
+  // Begins lost in a map of an earlier run, and relocalizes for as long as `use` allows.
   void BeginLost(const MapUse& use);
-  // Goes on, after being lost, from a frame whose place was found in the map. `snapshot` is taken
-  // around the keyframe from which the place was found.
+  // Continues, after being lost, from a relocalized frame. `snapshot` is taken around the candidate
+  // from which its pose was found.
   void FollowFrom(const Relocalized& found, const MapSnapshot& snapshot);
-  // Tells that a lost frame was looked for in the maps and not found.
+  // Reports a failed relocalization of a lost frame.
   void NotFound() { asked_ = true; }
-  // A keyframe was removed from the map: poses that refer to it refer to its parent from now on.
+  // Handles a removed keyframe: poses that refer to it refer to its parent from now on.
   void ReparentPoses(KeyFrameId gone, KeyFrameId parent, const RelativePose& gone_from_parent);
 
   TrackerState state() const { return state_; }
   // Returns the id that the next keyframe will get.
   KeyFrameId next_keyframe() const { return next_keyframe_; }
-  // Whether there is a last pose, so that a snapshot is needed for the next frame.
+  // Returns true if there is a last pose, so that the next frame needs a snapshot.
   bool follows() const { return last_.has_value(); }
 
  private:
-  // Whether the last frame takes the place of the map.
+  // Returns true if the last frame replaces the map.
   bool IsOdometry() const { return options_.reference == TrackingReference::kLastFrame; }
 
-  // The keyframe that the last pose refers to.
+  // The reference keyframe of the last pose.
   struct Anchor {
     KeyFrameId keyframe;
     RelativePose relative;
   };
   struct Tracked : LastFrame {
     Anchor anchor;
-    // Used while the frame itself is a keyframe that is not in the map yet.
+    // Used while the frame itself is a keyframe not yet in the map.
     Anchor parent;
   };
 
-  // A pose, or why there is none.
+  // A pose, or the reason why there is none.
   struct PoseCandidate {
-    // The counts in this attempt are those in `counts`.
+    // `counts` are those of this attempt.
     std::optional<PoseAttempt> attempt;
     TrackingFailure failure = TrackingFailure::kNone;
     FrameCounts counts;
@@ -220,7 +215,7 @@ class Tracker {
                             const MapSnapshot& snapshot,
                             LandmarkMatches found) const;
   bool IsWeak(const PoseAttempt& attempt) const;
-  // without_pose: the counts of matches to report where there is no attempt.
+  // without_pose: counts of matches to report without an attempt.
   PoseCandidate CheckPose(std::optional<PoseAttempt> attempt,
                           const FrameCounts& without_pose) const;
   bool NeedsKeyFrame(const Frame& frame,
@@ -228,7 +223,7 @@ class Tracker {
                      const MapSnapshot& snapshot,
                      double feature_share) const;
 
-  // reference, place: the keyframe that the frame's pose is relative to, and where it is.
+  // reference, place: reference keyframe of the frame's pose, and its pose.
   TrackingResult FinishTracked(Frame frame,
                                PoseCandidate found,
                                KeyFrameId reference,
