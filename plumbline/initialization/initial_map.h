@@ -17,8 +17,8 @@
 
 namespace plumbline {
 
-// A frame offered for the start of a map. The image is needed by rank1_klt and two_view_images, and
-// by rank1 unless it matches by descriptor.
+// Input frame of an initializer. The image is needed by rank1_klt and two_view_images, and by rank1
+// unless it matches by descriptor.
 struct InitializationFrame {
   FrameId id;
   std::int64_t stamp_ns = 0;
@@ -26,14 +26,14 @@ struct InitializationFrame {
   std::shared_ptr<const GrayImage> image;
 };
 
-// A feature of a view (an index into InitialMap::views) that shows a landmark.
+// Observation of a landmark by a feature of a view (an index into InitialMap::views).
 struct InitialObservation {
   int view = 0;
   int feature = 0;
-  // Pixel where the view shows a point, when that is known better than from its feature.
+  // Pixel of a point in the view, if it is known better than by its feature.
   std::optional<Eigen::Vector2d> px = std::nullopt;
 };
-// The features of several views that show one landmark: at least two, ordered by view.
+// Features of one landmark in several views: at least two, ordered by view.
 using FeatureTrack = std::vector<InitialObservation>;
 
 struct InitialPoint {
@@ -42,7 +42,7 @@ struct InitialPoint {
 };
 struct InitialLine {
   PluckerLine line;  // in the world; directed as its features
-  Segment3 segment;  // the part of the line that was seen
+  Segment3 segment;  // visible part of the line
   FeatureTrack observations;
 };
 struct InitialView {
@@ -50,8 +50,8 @@ struct InitialView {
   Rigid3 cam_from_world;
 };
 
-// The start of a monocular map. The world is the first view's camera; the unit of length is the
-// median depth of the points there.
+// Initial monocular map. The world is the first view's camera; the scale makes the median depth of
+// the points there 1.
 struct InitialMap {
   // In order of time: the first is the reference, the last the newest frame.
   std::vector<InitialView> views;
@@ -59,17 +59,17 @@ struct InitialMap {
   std::vector<InitialLine> lines;
 };
 
-// Triangulates points and lines from views whose poses are known.
+// Triangulates points and lines from views with known poses.
 //
 // A point must have 0.3 degrees of parallax, lie in front of all its views, agree with them (chi2
-// at 95 %) and be known to 30 % of its depth. A line must have interpretation planes at an angle
-// that fixes its depth to 10 %, end in front of all views, pass through the ends of its segments,
-// and lie at a depth like that of the points. The last test is needed because two segments always
-// meet in some line: with two views only its depth reveals a wrong match.
+// at 95 %) and have a standard deviation of at most 30 % of its depth. A line must have
+// interpretation planes at an angle that determines its depth to 10 %, end in front of all views,
+// pass through the ends of its segments, and have a depth similar to that of the points. The last
+// test is needed because two segments always intersect in some line: with two views only its depth
+// reveals a wrong match.
 //
 //   point_tracks, line_tracks  indices into `views` and the features of the frames there
-//   returns                    the map in the world of the views' poses; tracks that fail are left
-//                              out
+//   returns                    the map in the world of the views' poses, without failing tracks
 //   cost                       O(tracks)
 InitialMap TriangulateMap(const RectifiedCamera& camera,
                           std::vector<InitialView> views,
@@ -79,20 +79,19 @@ InitialMap TriangulateMap(const RectifiedCamera& camera,
 // Returns the median depth of the points in the first view; 0 without points.
 double MedianDepth(const InitialMap& map);
 
-// Scales poses, points and lines about the world's origin so that the median depth is 1. A map
-// without points stays as it is.
+// Scales poses, points and lines about the world's origin to a median depth of 1. A map without
+// points does not change.
 void ScaleToMedianDepth(InitialMap& map);
 
 // Bundle adjustment of all poses but the first, and of all points and lines, to all observations.
-// Afterwards observations that do not fit (chi2 at 95 %) and landmarks with fewer than two
-// observations are dropped, and the median depth is made 1.
+// Afterwards outlier observations (chi2 at 95 %) and landmarks with fewer than two observations are
+// dropped, and the median depth is made 1.
 //
 //   map   not empty; the first view's camera is the world
 //   cost  some milliseconds for three views and 300 points
 void AdjustMap(const RectifiedCamera& camera, InitialMap& map);
 
-// Calls TriangulateMap and AdjustMap; returns nullopt where fewer than `min_points` points are
-// left.
+// Calls TriangulateMap and AdjustMap; returns nullopt if fewer than `min_points` points remain.
 std::optional<InitialMap> TriangulateAndAdjustMap(const RectifiedCamera& camera,
                                                   std::vector<InitialView> views,
                                                   std::span<const FeatureTrack> point_tracks,

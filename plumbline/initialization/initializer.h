@@ -12,7 +12,7 @@
 
 namespace plumbline {
 
-// Why there is no initial map yet.
+// Reason why there is no initial map yet.
 enum class InitializationStatus {
   kNone,
   kTooFewFeatures,     // this image has too few features
@@ -20,7 +20,7 @@ enum class InitializationStatus {
   kTooFewMatches,      // too few matches with the reference frame
   kTooLittleParallax,  // the camera stands still, or only turns
   kAmbiguous,          // two interpretations explain the frames equally well
-  kInaccurate,         // the structure is not known well enough, or does not fit
+  kInaccurate,         // the structure is not accurate enough, or does not fit
 };
 constexpr auto EnumNames(std::type_identity<InitializationStatus>) {
   return std::array{std::pair{InitializationStatus::kNone, ""},
@@ -32,34 +32,34 @@ constexpr auto EnumNames(std::type_identity<InitializationStatus>) {
                     std::pair{InitializationStatus::kInaccurate, "inaccurate"}};
 }
 
-// How often each step of starts was done, whichever map came of it.
+// Counts of the steps of initialization, whichever map resulted.
 struct InitializationCounts {
-  int aligned_images = 0;    // images on which the reference's points were followed and aligned
+  int aligned_images = 0;    // images in which the reference's points were tracked and aligned
   int model_selections = 0;  // decisions between models over several frames (SelectModel)
   int pairwise_poses = 0;    // poses of single frames (EstimatePairwisePose)
   int pairwise_factorizations = 0;  // factorizations of such poses (FactorizePairwise)
-  int interpolated_places = 0;      // places that these interpolated
+  int interpolated_places = 0;      // positions interpolated for these
   int two_view_solutions = 0;       // decisions between a homography and an essential matrix
 };
 
 struct InitializationResult {
-  InitializationStatus wait = InitializationStatus::kNone;  // kNone when there is a map
+  InitializationStatus wait = InitializationStatus::kNone;  // kNone if there is a map
   int matches = 0;  // points matched with the reference frame
-  // Median angle between the rays of matches, without the camera's rotation; 0 where unknown.
+  // Median angle between the rays of matches, without the camera's rotation; 0 if unknown.
   double parallax_deg = 0;
   std::optional<InitialMap> map = std::nullopt;
 };
 
 // Starts a monocular map from a sequence of frames: offer frames in order until one gives a map.
-// Never a bad map: while the frames do not decide, the answer is to wait.
+// While the frames are ambiguous, it waits rather than returns a bad map.
 class Initializer {
  public:
   virtual ~Initializer() = default;
   virtual InitializationResult Add(const InitializationFrame& frame) = 0;
-  // Forgets all frames: after a loss, or when a map was taken.
+  // Discards all frames: after a loss, or after a map was started.
   virtual void Reset() = 0;
 
-  // What has been done so far.
+  // Counts of all steps so far.
   const InitializationCounts& counts() const { return counts_; }
 
  protected:

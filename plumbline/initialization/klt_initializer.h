@@ -12,14 +12,14 @@
 
 namespace plumbline {
 
-// Rank-1 factorization as Tang et al. start GSLAM, for comparison. The features of the reference
-// are followed by KLT, and only points that are alive in all frames are factorized. There is no
-// interpolation, each frame has the best relative pose that it gives by itself, and simple
-// thresholds decide: the share of points in front, the residual of the factorization, the median
-// parallax.
+// Rank-1 factorization as in the initialization of GSLAM by Tang et al., for comparison. The
+// features of the reference are tracked by KLT, and only points tracked in all frames are
+// factorized. There is no interpolation, each frame has its best relative pose by itself, and
+// simple thresholds decide: the share of points in front, the residual of the factorization, the
+// median parallax.
 //
-// Needs the images of all frames (BugError otherwise). When too few tracks are left, the present
-// frame becomes the reference.
+// Needs the images of all frames (BugError otherwise). If too few tracks remain, the present frame
+// becomes the reference.
 class KltInitializer : public Initializer {
  public:
   KltInitializer(const RectifiedCamera& camera,
@@ -39,14 +39,14 @@ class KltInitializer : public Initializer {
   void Start(const InitializationFrame& frame);
   // Returns frames spread evenly since the reference, the newest last.
   std::vector<int> SelectFrames() const;
-  // Returns the points that are alive in the newest frame, in the chosen frames.
+  // Returns the points still tracked in the newest frame, in the selected frames.
   FeatureTracks CollectTracks(const std::vector<int>& frames) const;
   InitializationResult Attempt();
   std::optional<InitialMap> BuildMap(const std::vector<int>& frames,
                                      const std::vector<Rigid3>& poses) const;
 
   RectifiedCamera camera_;
-  int frame_count_;  // number of frames that are factorized together
+  int frame_count_;  // number of frames factorized together
   std::uint64_t seed_;
   HelperThread* helper_;
   std::optional<InitializationFrame> reference_;

@@ -12,9 +12,8 @@
 
 namespace plumbline {
 
-// Returns an initializer of the method that the options name. `seed` seeds all its random numbers.
-// The helper, where there is one, shares its work on images, with the same result, and has to
-// outlive it.
+// Returns an initializer of the method in the options. `seed` seeds all its random numbers. The
+// helper, if any, shares its work on images, with the same result, and must outlive it.
 std::unique_ptr<Initializer> MakeInitializer(const CameraAndPyramid& imaging,
                                              const InitializationOptions& options,
                                              std::uint64_t seed,

@@ -16,29 +16,29 @@
 
 namespace plumbline {
 
-// A pixel of one image, and the pixel of another image that shows the same point.
+// Pixels of one point in two images.
 struct PixelPair {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
 };
 
-// Predicts where the pixels of one image lie in another, from some matches. An affine map is fitted
-// robustly to all of them. Parallax moves near things further than far ones, so that the median of
-// what the map leaves at the nearest matches is added.
+// Predicts the position of pixels of one image in another from matches. An affine map is fitted
+// robustly to all of them. Parallax moves near objects further than far ones, so that the median
+// residual of the map at the nearest matches is added.
 class ImageMotion {
  public:
   ImageMotion() = default;  // nothing moves
-  // Fits the motion. With fewer than three pairs (or with all on one line) it is their median
+  // Fits the motion. With fewer than three pairs (or with all of them collinear) it is their median
   // shift. Cost: O(n).
   explicit ImageMotion(std::span<const PixelPair> matches);
 
-  // Whether it was made from matches.
+  // Returns true if the motion was fitted to matches.
   bool known() const { return !places_.empty(); }
 
   // The derivative of the affine map.
   const Eigen::Matrix2d& linear() const { return linear_; }
 
-  // Predicts the place of a pixel. Cost: O(n).
+  // Predicts the position of a pixel. Cost: O(n).
   Eigen::Vector2d operator()(const Eigen::Vector2d& px) const;
   Segment2 operator()(const Segment2& segment) const {
     return {(*this)(segment.start), (*this)(segment.end)};
@@ -53,11 +53,11 @@ class ImageMotion {
   Eigen::Matrix2d linear_ = Eigen::Matrix2d::Identity();
   Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d shift_ = Eigen::Vector2d::Zero();
-  std::vector<Eigen::Vector2d> places_;     // places of the matches, in the first image
-  std::vector<Eigen::Vector2d> leftovers_;  // what the affine map leaves of the motion at places_
+  std::vector<Eigen::Vector2d> places_;     // positions of the matches, in the first image
+  std::vector<Eigen::Vector2d> leftovers_;  // residuals of the affine map at places_
 };
 
-// The features of a reference frame (a) that were found again in a later frame (b).
+// Matches of the features of a reference frame (a) in a later frame (b).
 struct ReferenceMatches {
   std::vector<PointMatch> points;  // ordered by feature of the reference
   std::vector<LineMatch> lines;
@@ -66,11 +66,11 @@ struct ReferenceMatches {
 
 // Matches the points and lines of a reference frame with those of a later frame by descriptor.
 //
-// Points are matched twice. The first time they are searched in a wide window around the place that
-// `guess` gives (50 px to each side; 100 px where nothing is guessed). Of these only matches are
-// kept whose orientation fits the roll of the camera (15 degrees) and whose place fits that of
+// Points are matched twice. The first time they are searched in a wide window around the position
+// predicted by `guess` (50 px to each side; 100 px without a guess). Of these only matches are kept
+// whose orientation fits the roll of the camera (15 degrees) and whose displacement fits that of
 // their neighbours. The second time all points are searched in a narrow window (25 px) around the
-// place that those matches predict. Lines follow, moved by the same motion.
+// position predicted by those matches. Lines follow, moved by the same motion.
 //
 //   guess    motion to an earlier frame close to this one; a default one for the first frame
 //   returns  at most one match for each feature
@@ -79,7 +79,7 @@ ReferenceMatches MatchToReference(const Features& reference,
                                   const Features& frame,
                                   const ImageMotion& guess = {});
 
-// Returns the matches as rays, for the solvers of two views, in order.
+// Returns the matches as rays, for two-view solvers, in order.
 std::vector<RayMatch> RayMatchesOf(const RectifiedCamera& camera,
                                    const Features& a,
                                    const Features& b,

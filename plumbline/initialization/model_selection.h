@@ -22,21 +22,21 @@ struct ModelSelectionOptions {
 
 struct ModelSelection {
   InitializationStatus wait = InitializationStatus::kNone;
-  // Median over the points of the newest frame; 0 where unknown.
+  // Median over the points of the newest frame; 0 if unknown.
   double parallax_deg = 0;
   std::optional<Reconstruction> reconstruction = std::nullopt;  // its median depth is one
 };
 
-// Keeps the models of earlier tracks of the same reference that could not be ruled out, as
-// hypotheses for the next tracks: the newest frame may tell less than earlier frames could.
+// Stores the models of earlier tracks of the same reference that could not be ruled out, as
+// hypotheses for the next tracks: the newest frame may be less informative than earlier frames.
 class PriorHypotheses {
  public:
   void Clear();
-  // Keeps the models, the best first. `sure` says that the best would have been accepted.
+  // Stores the models, the best first. `sure` is true if the best would have been accepted.
   void Keep(const FeatureTracks& tracks, std::span<const CandidateModel> models, bool sure);
   std::vector<MotionHypothesis> HypothesesFor(const FeatureTracks& tracks) const;
-  // Whether the best kept model was sure, and its points give the newest frame the pose that the
-  // reconstruction has. What was found by chance is not found twice.
+  // Returns true if the best stored model was sure, and its points give the newest frame the pose
+  // of the reconstruction. Chance results do not repeat.
   bool Confirm(const FeatureTracks& tracks, const Reconstruction& reconstruction) const;
 
  private:
@@ -48,24 +48,23 @@ class PriorHypotheses {
   bool sure_ = false;
 };
 
-// Reconstructs the tracks in all ways that the newest frame allows, and decides whether one of them
-// is right beyond doubt:
+// Reconstructs the tracks by all hypotheses for the newest frame, and decides whether one is
+// certain to be right:
 //
 //  - Every hypothesis of the motion to the newest frame (essential matrix and homography, all their
-//    decompositions), and every prior one, is carried through all frames (FactorizeTracks) and
-//    adjusted to all matches.
+//    decompositions), and every prior one, is extended to all frames (FactorizeTracks) and adjusted
+//    to all matches.
 //  - At least 24 points and lines of the newest frame are needed, 12 of them points, with 85 %
 //    inliers and 1.2 degrees of parallax.
-//  - The best model must beat every model with another motion by a margin of chi2 that noise does
-//    not make (kAmbiguous otherwise). This tells the two interpretations of a plane apart.
-//  - The first-order covariance must promise the accuracy that a map needs (kTooLittleParallax or
-//    kInaccurate otherwise). A camera that stands or turns leaves depth and direction free, which
-//    the covariance shows. It also shows a small thing that moves before a camera at rest, since
-//    the median is that of all points.
-//  - The selection of the frame before must have been as sure, and agree.
+//  - The best model must beat every model with another motion by a margin of chi2 above that of
+//    noise (kAmbiguous otherwise). This resolves the two interpretations of a plane.
+//  - The first-order covariance must reach the accuracy that a map needs (kTooLittleParallax or
+//    kInaccurate otherwise). A camera that stands or turns leaves depth and direction undetermined,
+//    as the covariance shows. It also reveals a small object that moves in front of a camera at
+//    rest, since the median is that of all points.
+//  - The selection of the previous frame must have been as certain, and agree.
 //
-// The model has one limit: a scene most of which moves as one rigid body looks like a camera that
-// moves.
+// One limit: a scene most of which moves as one rigid body is indistinguishable from camera motion.
 ModelSelection SelectModel(const FeatureTracks& tracks,
                            const ModelSelectionOptions& options,
                            PriorHypotheses& prior,

@@ -20,18 +20,18 @@ constexpr auto EnumNames(std::type_identity<InitializationMethod>) {
                     std::pair{InitializationMethod::kTwoViewImages, "two_view_images"}};
 }
 
-// How points are found again in the frames after the reference.
+// Matching of points in the frames after the reference.
 enum class InitialMatching { kImages, kDescriptors };
 constexpr auto EnumNames(std::type_identity<InitialMatching>) {
   return std::array{std::pair{InitialMatching::kImages, "images"},
                     std::pair{InitialMatching::kDescriptors, "descriptors"}};
 }
 
-// What becomes of points that some of the frames do not show.
+// Treatment of points missing in some of the frames.
 enum class MissingPlaces {
-  kInterpolate,  // their places are interpolated (first paper, section 2.2)
-  kLeaveOut,     // the entries of the matrix that are missing weigh nothing
-  kTriangulate,  // they take no part in the factorization, and are triangulated from its poses
+  kInterpolate,  // their positions are interpolated (first paper, section 2.2)
+  kLeaveOut,     // the missing entries of the matrix have no weight
+  kTriangulate,  // they are not factorized, but triangulated from the resulting poses
 };
 constexpr auto EnumNames(std::type_identity<MissingPlaces>) {
   return std::array{std::pair{MissingPlaces::kInterpolate, "interpolate"},

@@ -12,16 +12,15 @@
 
 namespace plumbline {
 
-// The start of a map as the first paper describes it (Lee and Hwang 2019, section 2), corrected
-// where a formula is wrong (docs/methods/rippl.md).
+// Initialization of the first paper (Lee and Hwang 2019, section 2), with formulas corrected
+// (docs/methods/rippl.md).
 //
 // Points are matched with the reference by descriptor. Once there are m = options.frames frames
-// after it, the newest m successive ones are taken: each gets its pose against the reference by
-// itself (EstimatePairwisePose), matches far from their epipolar lines are left out, places that a
-// frame does not show are interpolated where the epipolar lines meet at an angle, and rank-1
-// factorization gives all centres and inverse distances (FactorizePairwise). What can be
-// triangulated of it is the map, at once: nothing decides whether it is good enough but that there
-// are landmarks.
+// after it, the newest m successive ones are taken: each gets its pose relative to the reference by
+// itself (EstimatePairwisePose), matches far from their epipolar lines are left out, missing
+// positions are interpolated where the epipolar lines meet at an angle, and rank-1 factorization
+// gives all centres and inverse distances (FactorizePairwise). The landmarks that can be
+// triangulated are the map, at once: the only criterion is that there are some.
 class PairwiseInitializer : public Initializer {
  public:
   PairwiseInitializer(const CameraAndPyramid& imaging,
@@ -32,8 +31,8 @@ class PairwiseInitializer : public Initializer {
   void Reset() override { window_.Reset(); }
 
  private:
-  // Finds the pose of each view and leaves out of the tracks what does not fit it; empty where one
-  // has none.
+  // Estimates the pose of each view and removes outliers from the tracks; empty if a view has no
+  // pose.
   std::vector<Rigid3> EstimatePoses(FrameId newest, FeatureTracks& tracks);
   std::optional<InitialMap> MakeMap(const std::vector<int>& frames,
                                     const Reconstruction& found) const;

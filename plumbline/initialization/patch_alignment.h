@@ -17,11 +17,11 @@ struct PatchAlignmentOptions {
   int radius = 5;  // half the width of the patch, in pixels of the feature's octave
   int max_iterations = 15;
   // Largest distance of each of the two searches from its start, in pixels of the octave. The
-  // search by shifts starts at the guess, the search of the affine map where the first one ends.
+  // search by shifts starts at the guess, the search of the affine map at its result.
   double max_shift_px = 1.5;
-  double min_correlation = 0.8;  // least normalized correlation of the two patches in the end
+  double min_correlation = 0.8;  // least final normalized correlation of the two patches
   // Least ratio of the smaller to the larger eigenvalue of the patch's structure tensor. Below it
-  // the patch is an edge, and its place along the edge is free.
+  // the patch is an edge, and its position along the edge is undetermined.
   double min_roundness = 0.15;
   // Expected difference between the affine map of a patch and that of the whole image: standard
   // deviation of each entry of their quotient.
@@ -29,25 +29,24 @@ struct PatchAlignmentOptions {
   double octave_scale = 1.2;  // scale from one octave of the features to the next
 };
 
-// Finds where the later image shows exactly the point that the reference shows at a feature. The
-// corners that a detector finds in two images are not quite the same point of the scene, and
-// corners at the border of a thing before another one, or on an edge, slide along it.
+// Finds the exact position in the later image of the reference's features. Corners detected in two
+// images are not quite the same point of the scene, and corners at occlusion borders, or on an
+// edge, slide along it.
 //
 // The patch around the feature of the reference, warped by `linear`, is shifted until it fits that
 // of the later image, apart from brightness and contrast (Lucas and Kanade 1981, in the inverse
 // form of Baker and Matthews 2004: gradients are those of the patch). From there its affine map is
-// found together with the shift, since each surface turns, shrinks and shears in its own way. A
-// corner says little about some parts of the map; the prior `warp_sigma` is weighed against the
+// estimated together with the shift, since each surface rotates, shrinks and shears in its own way.
+// A corner says little about some parts of the map; the prior `warp_sigma` is weighted against the
 // residual.
 //
-//   guesses  pixel where the image should show each feature of the reference; nullopt: not looked
-//            for
+//   guesses  predicted pixel of each feature of the reference; nullopt: not searched
 //   linear   derivative of the motion from reference to image pixels
-//   warps    one for each feature: the affine map of its patch is `linear` times this. It goes in
-//            as the start of the search, for instance that of the frame before, and comes out as
-//            found
-//   returns  the pixel in `image` for each feature; nullopt where the patch is an edge, leaves an
-//            image, ends too far from the guess or does not look the same there
+//   warps    one for each feature: the affine map of its patch is `linear` times this. Its input is
+//            the start of the search, for instance that of the previous frame, its output the
+//            result
+//   returns  the pixel in `image` for each feature; nullopt if the patch is an edge, leaves an
+//            image, ends too far from the guess or differs in appearance there
 //   cost     some ten microseconds a feature
 TrackedPixels AlignPatches(const GrayImage& reference_image,
                            std::span<const PointFeature> reference,

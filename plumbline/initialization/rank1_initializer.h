@@ -9,11 +9,11 @@
 
 namespace plumbline {
 
-// The first paper's start of a map (section 2): rank-1 factorization of several frames, completed
-// by geometric interpolation, with a decision that waits rather than errs (model_selection.h).
+// Initialization of the first paper (section 2): rank-1 factorization of several frames, completed
+// by geometric interpolation, with a decision that prefers waiting to errors (model_selection.h).
 //
 // Attempts begin once there are options.frames frames after the reference. Each attempt takes that
-// many frames, spread over all frames since the reference, and each new frame brings another
+// many frames, spread over all frames since the reference, and each new frame leads to another
 // attempt.
 class Rank1Initializer : public Initializer {
  public:

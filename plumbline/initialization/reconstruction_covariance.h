@@ -11,25 +11,24 @@
 
 namespace plumbline {
 
-// How well tracks fix motion and structure, to first order.
+// First-order covariance of motion and structure given the tracks.
 struct ReconstructionCovariance {
   // Covariance of the left perturbations [rotation, translation] of all views, 6 by 6 for each. The
-  // scale of the whole is held.
+  // global scale is fixed.
   Eigen::MatrixXd poses;
   // For each point the standard deviation of its depth in the reference view, relative to that
-  // depth, once the scale of all points has been brought to the true one. Negative where the point
-  // is not known.
+  // depth, after scaling all points to the true scale. Negative if the point is unknown.
   std::vector<double> relative_depth_sigmas;
 };
 
 // Computes the covariance from the normal equations of the reprojection errors at a reconstruction,
-// with the points eliminated. The reference and the unit are fixed, everything else is free.
+// with the points eliminated. The reference and the scale are fixed, everything else is free.
 //
 //   noise       factor on the standard deviations of all measurements
 //   max_chi2    measurements whose squared error exceeds it, in those deviations, do not count
-//   line_noise  factor on the deviations of lines, where lines take part; a line counts where it is
-//               an inlier in all views that show it
-//   returns     nullopt where the frames do not fix all poses
+//   line_noise  factor on the deviations of lines, if used; a line counts if it is an inlier in all
+//               its views
+//   returns     nullopt if the frames do not determine all poses
 //   cost        O(points views^2)
 std::optional<ReconstructionCovariance> ComputeCovariance(const FeatureTracks& tracks,
                                                           const Reconstruction& reconstruction,
@@ -40,7 +39,7 @@ std::optional<ReconstructionCovariance> ComputeCovariance(const FeatureTracks& t
 // Standard deviations of the pose of one view.
 struct PoseAccuracy {
   double rotation = 0;  // in radians, about the worst axis
-  // Deviation of the line of the two camera centres, in radians, about the worst axis.
+  // Deviation of the direction between the two camera centres, in radians, about the worst axis.
   double direction = 0;
 };
 PoseAccuracy AccuracyOf(const Reconstruction& reconstruction,

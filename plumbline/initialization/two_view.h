@@ -17,53 +17,51 @@
 
 namespace plumbline {
 
-// Returns how well a model of two views explains matches (Mur-Artal, Montiel and Tardos,
-// "ORB-SLAM", 2015, section IV): the sum of 5.99 - d^2 over both images of all matches, where d is
-// the distance over its deviation. Only d^2 below 3.84 counts for the distance from the epipolar
-// line, and below 5.99 for the distance from the mapped point.
+// Returns the score of a two-view model for matches (Mur-Artal, Montiel and Tardos, "ORB-SLAM",
+// 2015, section IV): the sum of 5.99 - d^2 over both images of all matches, where d is the distance
+// over its deviation. Only d^2 below 3.84 counts for the distance from the epipolar line, and below
+// 5.99 for the distance from the mapped point.
 double EpipolarScore(const Eigen::Matrix3d& fundamental, std::span<const RayMatch> matches);
 double TransferScore(const Eigen::Matrix3d& homography, std::span<const RayMatch> matches);
 
-// What two views have in common; the fundamental matrix is that of rays (x/z, y/z).
+// Relation of two views; the fundamental matrix is that of rays (x/z, y/z).
 enum class TwoViewModel { kFundamental, kHomography };
 
 struct TwoViewSolution {
-  InitializationStatus wait = InitializationStatus::kNone;  // kNone: the pose can be used
+  InitializationStatus wait = InitializationStatus::kNone;  // kNone: the pose is usable
   TwoViewModel model = TwoViewModel::kFundamental;
-  // Pose with |translation| = 1. It is that of the best motion, even where the solution is not
-  // good.
+  // Pose with |translation| = 1. It is that of the best motion, even if the solution is not good.
   Rigid3 b_from_a;
-  // For each match, whether its point is in front of both views and agrees with both.
+  // For each match, true if its point is in front of both views and agrees with both.
   std::vector<bool> is_good;
-  // Angle that the rays of 50 good matches reach, without the rotation.
+  // Angle that the rays of 50 good matches exceed, without the rotation.
   double parallax_deg = 0;
 };
 
-// Decides on the relative pose as the ORB-SLAM paper does (section IV): 200 random sets of eight
+// Estimates the relative pose as in the ORB-SLAM paper (section IV): 200 random sets of eight
 // matches, of each set a fundamental matrix (normalized eight points) and a homography (normalized
-// DLT), the best of each by its score, and the homography where its share of the two scores is
-// above 0.45. Of all motions of the chosen model the one is taken with most points that lie in
-// front and agree with both views, if it has enough of them, parallax, and no rival.
+// DLT), the best of each by its score, and the homography if its share of the two scores is above
+// 0.45. Of all motions of the chosen model, the result is that with most points in front of and
+// consistent with both views, if it has enough of them, parallax, and no rival.
 //
 //   pixel  deviation of each coordinate in both images: a pixel, over the focal length. Those of
-//          the matches are not used, as in the paper, which takes all octaves alike
+//          the matches are not used, as in the paper, which treats all octaves alike
 //
-// Differs from the paper: the homography is of all eight matches, which the paper has of four of
-// them: of four, noise makes it lose planes to the fundamental matrix. The rays of the calibrated
-// camera take the place of pixels, which comes to the same for square pixels, and makes the
-// fundamental matrix an essential one but for its singular values; a point agrees by its Sampson
-// distance, which to first order is the error of reprojection of the best point, and is not
-// triangulated.
+// Differs from the paper: the homography uses all eight matches, in the paper four: with four,
+// noise makes it lose planes to the fundamental matrix. Rays of the calibrated camera replace
+// pixels, which is equivalent for square pixels, and makes the fundamental matrix an essential one
+// but for its singular values; a point agrees by its Sampson distance, which to first order is the
+// reprojection error of the best point, and is not triangulated.
 //
-//   fails  wait says why: kTooFewMatches, kAmbiguous (a rival with 0.7 of the points, with 0.75 for
-//          a homography), kTooLittleParallax (fewer than 50 points reach a degree), kInaccurate
-//          (fewer than 50 good points, or than 0.9 of the inliers of the model)
+//   fails  `wait` is the reason: kTooFewMatches, kAmbiguous (a rival with 0.7 of the points, with
+//          0.75 for a homography), kTooLittleParallax (fewer than 50 points reach a degree),
+//          kInaccurate (fewer than 50 good points, or than 0.9 of the inliers of the model)
 //   cost   some milliseconds
 TwoViewSolution SolveTwoViews(std::span<const RayMatch> matches, double pixel, Rng& rng);
 
-// The conventional start: the first frame with enough features is the reference until a later one
+// Two-view initialization: the first frame with enough features is the reference until a later one
 // gives a pose (SolveTwoViews) and a map after bundle adjustment. A frame with too few matches
-// becomes the new reference, and earlier frames are forgotten.
+// becomes the new reference, and earlier frames are discarded.
 class TwoViewInitializer : public Initializer {
  public:
   TwoViewInitializer(const RectifiedCamera& camera, std::uint64_t seed)
@@ -79,13 +77,13 @@ class TwoViewInitializer : public Initializer {
   ImageMotion motion_;  // motion from the reference to the newest frame
 };
 
-// The conventional decision (SolveTwoViews) on the matches of rank1: points are followed and
-// aligned on the images (InitializationWindow), and the reference stays until matches with it die
-// out. The comparison with rank1 shows what factorization and the decision of several frames bring,
-// the comparison with two_view what the matches bring.
+// Two-view initialization (SolveTwoViews) on the matches of rank1: points are tracked and aligned
+// on the images (InitializationWindow), and the reference stays until its matches become too few.
+// The comparison with rank1 isolates the effect of factorization and multi-frame decision, the
+// comparison with two_view that of the matches.
 //
-// Each frame is tried by itself, with all points of the reference that it shows. Needs the images
-// of all frames (BugError otherwise).
+// Each frame is tried by itself, with all its points of the reference. Needs the images of all
+// frames (BugError otherwise).
 class TwoViewImagesInitializer : public Initializer {
  public:
   TwoViewImagesInitializer(const CameraAndPyramid& imaging,
