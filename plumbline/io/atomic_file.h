@@ -32,30 +32,29 @@ class WriteError : public InputError {
   std::string why_;
 };
 
-// Throws WriteError where no file may take the place of what is at `path`: a folder, a device, a
-// pipe. Changes nothing.
+// Throws WriteError if no file may replace the object at `path`: a folder, a device, a pipe.
+// Changes nothing.
 void CheckReplaceable(const std::filesystem::path& path);
 
 // Writes a whole file or nothing: the contents go to a temporary file in the same folder, which
-// takes the final name once complete. A killed program leaves the old file, or none, in place.
-// Throws WriteError (folder missing or not writable, disk full); the temporary file is removed
-// then.
+// gets the final name once complete. A killed program leaves the old file, or none. Throws
+// WriteError (folder missing or not writable, disk full) and then removes the temporary file.
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view contents);
 
-// Throws WriteError where WriteFileAtomically cannot begin to write: asked before work that takes
-// hours, it saves its result. Makes the temporary file and removes it; what is at `path` stays.
+// Throws WriteError if WriteFileAtomically cannot begin to write: a check before hours of work.
+// Makes the temporary file and removes it; the file at `path` does not change.
 void CheckWritable(const std::filesystem::path& path);
 
-// Whether a file must be on the disk, and not only with the operating system, before it takes its
-// name. With kPower even a power failure leaves the old file or the new one. Costs some
-// milliseconds.
+// Moment at which a file gets its name: kProcess once the operating system has all bytes, kPower
+// once they are on the disk, so that even a power failure leaves the old file or the new one. The
+// latter costs some milliseconds.
 enum class Durability { kProcess, kPower };
 
 // An atomic write of files that other code writes by name: construct, let that code write
 // temporary_path(), then Commit(). Without Commit the temporary file is removed.
 class AtomicFile {
  public:
-  explicit AtomicFile(std::filesystem::path path);  // throws as CheckReplaceable does
+  explicit AtomicFile(std::filesystem::path path);  // throws like CheckReplaceable
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
   ~AtomicFile();
@@ -71,33 +70,32 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-// A file to be written, and all that it is to hold.
+// A file to be written, with all its contents.
 struct FileContents {
   std::filesystem::path path;
   std::string contents;
 };
 
-// Writes several files or none, as WriteFileAtomically writes one: all are complete under temporary
-// names before the first takes its own. Where one cannot take its name (another user's file in a
-// shared folder), those before it get back what was there. Throws WriteError.
+// Writes several files or none, each like WriteFileAtomically: all are complete under temporary
+// names before the first gets its own. If one cannot get its name (another user's file in a shared
+// folder), those before it are restored. Throws WriteError.
 void WriteFilesAtomically(const std::vector<FileContents>& files);
 
-// A folder that appears whole or not at all, where it is new: construct, let files be written below
-// temporary_path(), which is beside the final place, then Commit(). Without Commit everything is
-// removed.
-// A folder that is there stays the same one, since a shell may be in it or a disk be mounted
-// there: temporary_path() is in it then, and Commit() moves the files up one after the other.
+// A new folder that appears whole or not at all: construct, let files be written below
+// temporary_path(), which is beside the final folder, then Commit(). Without Commit everything is
+// removed. An existing folder is not replaced, since a shell may be in it or a disk be mounted
+// there: then temporary_path() is in it, and Commit() moves the files up one after the other.
 class AtomicFolder {
  public:
-  // Makes the folders above it. Throws InputError where something other than an empty folder is at
-  // `path` already, or the temporary folder cannot be made.
+  // Makes the folders above it. Throws InputError if something other than an empty folder exists at
+  // `path`, or the temporary folder cannot be made.
   explicit AtomicFolder(const std::filesystem::path& path);
   AtomicFolder(const AtomicFolder&) = delete;
   AtomicFolder& operator=(const AtomicFolder&) = delete;
   ~AtomicFolder();
 
   const std::filesystem::path& temporary_path() const { return temporary_; }
-  // Throws InputError where the folder cannot take its name, or got other files meanwhile.
+  // Throws InputError if the folder cannot get its name, or other files have appeared in it.
   void Commit();
 
  private:
@@ -105,18 +103,18 @@ class AtomicFolder {
 
   std::filesystem::path path_;
   std::filesystem::path temporary_;
-  bool is_there_ = false;  // empty
+  bool is_there_ = false;  // true if the (empty) folder exists
   bool committed_ = false;
 };
 
-// A file that is written piece by piece, in any number of calls of Write, and takes its name whole
-// with Commit(). Both functions throw WriteError.
+// A file written in pieces, by any number of calls of Write, which gets its name with Commit().
+// Both functions throw WriteError.
 class AtomicFileWriter {
  public:
   explicit AtomicFileWriter(const std::filesystem::path& path);
   void Write(std::string_view bytes);
-  // Hands over all bytes to the operating system, after which only the name is missing. Nothing is
-  // written after that.
+  // Hands over all bytes to the operating system, so that only the name is missing. Nothing may be
+  // written afterwards.
   void Close();
   void Commit(Durability durability = Durability::kProcess);
 
@@ -128,7 +126,7 @@ class AtomicFileWriter {
   std::unique_ptr<std::FILE, CloseFile> stream_;
 };
 
-// Makes a folder and those above it; throws InputError when that is impossible.
+// Makes a folder and those above it; throws InputError if that is impossible.
 void MakeFolder(const std::filesystem::path& path);
 
 }  // namespace plumbline

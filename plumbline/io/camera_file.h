@@ -27,14 +27,14 @@ namespace plumbline {
 //   baseline: 0.11                              # metres
 //   body_from_left: [16 numbers]                # optional, body = frame of the ground truth
 //
-// or one of another program, told apart by its keys: EuRoC's sensor.yaml (one camera), Kalibr's
+// or a file of another program, recognized by its keys: EuRoC's sensor.yaml (one camera), Kalibr's
 // camchain.yaml (kalibr.h), settings of ORB-SLAM2 and 3 (orb_slam_settings.h), CamOdoCal's files
 // (camodocal.h), and calibrations by OpenCV's programs or ROS (opencv_calibration.h).
 //
 // Throws InputError "source:line: key: expected ..., found ...".
 //
-// Numbers that no real sensor has (plausible_calibration.h) are refused, those of the second camera
-// only where `use_pair`.
+// Implausible numbers (plausible_calibration.h) are refused, those of the second camera only if
+// `use_pair`.
 Calibration ParseCamera(const std::string& yaml, const std::string& source, bool use_pair = true);
 
 // A calibration and a description of its origin, for people: "rig/camchain.yaml (Kalibr camchain)".
@@ -45,17 +45,17 @@ struct CameraFile {
 // Reads the file at a path; see ParseCamera for errors.
 CameraFile ReadCameraFile(const std::filesystem::path& path, bool use_pair = true);
 
-// Reads the file at a path or, where there is none or a folder, the built-in camera of that name.
-// Throws InputError with the names of the built-in cameras where there is neither.
+// Reads the file at a path or, if there is none or a folder, the built-in camera of that name.
+// Throws InputError with the names of the built-in cameras if there is neither.
 CameraFile FindCamera(const std::string& path_or_name, bool use_pair = true);
 
-// Returns the camera file in a folder of images: camera.yaml or camchain.yaml, of any format.
+// Returns the camera file in an image folder: camera.yaml or camchain.yaml, of any format.
 std::optional<std::filesystem::path> CameraFileIn(const std::filesystem::path& folder);
 
 // Returns the names of the camera files of configs/cameras, which are part of the program.
 std::vector<std::string> BuiltInCameras();
 
-// Returns a calibration as a camera file; ParseCamera of it gives the same numbers.
+// Returns a calibration as a camera file; ParseCamera restores the same numbers.
 std::string FormatCamera(const Calibration& calibration);
 
 }  // namespace plumbline

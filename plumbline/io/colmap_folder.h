@@ -13,7 +13,7 @@
 
 namespace plumbline {
 
-// The forms in which a COLMAP model is written.
+// File formats of a COLMAP model.
 enum class ColmapFiles { kText, kBinary, kBoth };
 constexpr auto EnumNames(std::type_identity<ColmapFiles>) {
   return std::array{std::pair{ColmapFiles::kText, "text"},
@@ -21,9 +21,9 @@ constexpr auto EnumNames(std::type_identity<ColmapFiles>) {
                     std::pair{ColmapFiles::kBoth, "both"}};
 }
 
-// Writes what COLMAP and LIMAP read of a map into an existing folder: sparse/0/ with the model in
-// the form `files`, and lines/ with the lines (WriteLimapLines). Images are not written. Throws
-// InputError when a folder or file cannot be written.
+// Writes a map for COLMAP and LIMAP into an existing folder: sparse/0/ with the model in the
+// formats `files`, and lines/ with the lines (WriteLimapLines). Images are not written. Throws
+// InputError if a folder or file cannot be written.
 void WriteColmapFolder(const std::filesystem::path& folder,
                        const Map& map,
                        const ColmapModel& model,

@@ -60,14 +60,14 @@ struct ColmapModel {
 using PointColors = std::map<PointId, Color>;
 
 // Returns a map as a COLMAP model: the rectified left camera, an image for each keyframe with all
-// of its point features, and the points that at least two keyframes show. COLMAP refuses to adjust
-// a model with other points. Ids are those of the map plus 1. An observation of a point that is not
-// in front of the camera does not count.
+// of its point features, and the points observed by at least two keyframes. COLMAP refuses to
+// adjust a model with other points. Ids are those of the map plus 1. Observations of a point not in
+// front of the camera are left out.
 //
 //   names   names of the images of all keyframes
-//   colors  colours of points, where known; other points are grey, 128
-//   others  images that are no keyframes: they get the ids behind those of the keyframes, in this
-//           order, and no features
+//   colors  colours of points, if known; other points are grey, 128
+//   others  images of other frames: their ids follow those of the keyframes, in this order; they
+//           have no features
 ColmapModel MakeColmapModel(const SavedMap& saved,
                             const std::map<KeyFrameId, std::string>& names,
                             const PointColors& colors = {},
@@ -78,8 +78,8 @@ inline std::uint32_t ColmapImageId(KeyFrameId id) {
   return static_cast<std::uint32_t>(id.value + 1);
 }
 
-// Write cameras, images and points3D as .txt or .bin into a folder that exists. Both keep every
-// number to the last bit. Throw InputError when a file cannot be written.
+// Write cameras, images and points3D as .txt or .bin into an existing folder. Both keep every
+// number to the last bit. Throw InputError if a file cannot be written.
 void WriteColmapText(const std::filesystem::path& folder, const ColmapModel& model);
 void WriteColmapBinary(const std::filesystem::path& folder, const ColmapModel& model);
 

@@ -5,17 +5,17 @@
 namespace plumbline {
 
 // Libraries that decode images and videos write to standard error on their own ("libpng warning:
-// ...", "Corrupt JPEG data", "moov atom not found"), without the name of the file and beside the
-// message of the program, which says what matters.
+// ...", "Corrupt JPEG data", "moov atom not found"), without the name of the file and in addition
+// to the program's own message.
 //
-// For programs, to be called before there are threads. From then on, what is written to `stderr`
-// and std::cerr while a DecoderCall of its thread lives is dropped, and the logs of OpenCV and
-// FFmpeg are off unless the environment asks for them (OPENCV_LOG_LEVEL, OPENCV_FFMPEG_LOGLEVEL).
-// Everything else that is written there, such as a failed assertion, goes where it went before. A
-// library must not decide this for a process, so that without this call nothing is dropped.
+// For programs, to be called before threads start. From then on, output to `stderr` and std::cerr
+// during a DecoderCall of its thread is dropped, and the logs of OpenCV and FFmpeg are off unless
+// the environment enables them (OPENCV_LOG_LEVEL, OPENCV_FFMPEG_LOGLEVEL). All other output, for
+// example a failed assertion, is unchanged. A library must not decide this for a process, so that
+// without this call nothing is dropped.
 void DropDecoderMessages();
 
-// While it lives, this thread is inside a decoder.
+// Marks a scope in which this thread is inside a decoder.
 class DecoderCall {
  public:
   DecoderCall();

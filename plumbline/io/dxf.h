@@ -11,7 +11,7 @@ namespace plumbline {
 
 // Writes line segments as an ASCII DXF file of AutoCAD release 12 (AC1009), which every CAD program
 // reads: LINE entities on the layer PLUMBLINE_LINES. Coordinates as given (metres), 6 decimals; the
-// extent of the drawing in the header. The same input gives the same bytes. Throws InputError when
+// extent of the drawing in the header. The same input gives the same bytes. Throws InputError if
 // the file cannot be written.
 void WriteDxfLines(const std::filesystem::path& path, std::span<const Segment3> segments);
 

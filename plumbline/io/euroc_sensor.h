@@ -10,7 +10,7 @@
 
 namespace plumbline {
 
-// What a EuRoC sensor.yaml says of one camera.
+// Contents of a EuRoC sensor.yaml of one camera.
 struct EurocSensor {
   Camera camera;
   Rigid3 body_from_camera;  // T_BS

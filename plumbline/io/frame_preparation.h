@@ -12,39 +12,38 @@
 
 namespace plumbline {
 
-// Images of more pixels than this are reduced unless a width is asked for: 2 megapixels, which
-// images of 1920x1080 have.
+// Images of more pixels are reduced unless a width is given: 2 megapixels, enough for 1920x1080.
 constexpr std::int64_t kMostPixelsByDefault = std::int64_t{1} << 21;
 
-// Returns how images are turned: as asked for or, with Rotation::kAuto, as `noted` in the file.
+// Returns the rotation of images: as requested or, with Rotation::kAuto, as `noted` in the file.
 Orientation TurnOf(Rotation rotation, const Orientation& noted = {});
 
-// Returns the size to which images are reduced: of at most `max_width` columns or, where none is
-// asked for, of at most kMostPixelsByDefault; the shape stays. Smaller images keep their size.
-// Throws InputError for a width below 1.
+// Returns the size of reduced images: of at most `max_width` columns or, if that is not given, of
+// at most kMostPixelsByDefault; the aspect ratio stays. Smaller images keep their size. Throws
+// InputError for a width below 1.
 ImageSize ReducedSize(ImageSize size, std::optional<int> max_width);
 
-// What is done to frames between reading and use: first they are turned, then reduced. The camera
+// Preparation of frames between reading and use: first they are rotated, then reduced. The camera
 // frame is that of the images as used.
 class FramePreparation {
  public:
-  // `calibration` is that of the images as stored. Throws InputError for a stereo pair that is to
-  // be turned, since its cameras would not lie side by side.
+  // `calibration` is that of the images as stored. Throws InputError for the rotation of a stereo
+  // pair, since its cameras would not lie side by side.
   FramePreparation(const Calibration& calibration,
                    const Orientation& turn,
                    std::optional<int> max_width);
 
-  // Whether frames stay as they are.
+  // Returns true if frames do not change.
   bool IsIdentity() const { return turn_.IsIdentity() && reduced_ == turned_; }
-  // The calibration of the frames as used.
+  // Calibration of the frames as used.
   const Calibration& calibration() const { return calibration_; }
-  // Says that images are reduced, in one sentence; nullopt where they are not.
+  // Returns a sentence about the reduction of images; nullopt if they are not reduced.
   std::optional<std::string> ReductionNote() const;
 
-  // Returns an image as it is used: reduced to the mean of areas. An image of another size than the
-  // calibration's is only turned.
+  // Returns an image as used: reduced by area means. An image whose size differs from the
+  // calibration is only rotated.
   GrayImage Apply(GrayImage image) const;
-  // Returns depth as it is used: reduced to the nearest pixels, which are not mixed across edges.
+  // Returns depth as used: reduced to the nearest pixels, which are not mixed across edges.
   DepthImage Apply(DepthImage depth) const;
   SensorFrame Apply(SensorFrame frame) const;
 
@@ -54,28 +53,29 @@ class FramePreparation {
   Calibration calibration_;
 };
 
-// How the images of a data set are turned, and why.
+// Rotation of the images of a data set, and its reason.
 struct ImageTurn {
   Orientation orientation;
-  bool as_noted = false;               // as the file asks
-  bool calibration_of_turned = false;  // as delivered, the calibration was of the turned images
+  bool as_noted = false;  // true if the file requests it
+  // true if the delivered calibration was of the rotated images
+  bool calibration_of_turned = false;
 };
 
-// Decides how images of size `stored` are turned for which the file notes an orientation. Where the
-// calibration of `info` fits the turned images alone, it is turned back, so that it is of the
-// images as stored. Where it fits both, it is of the images as stored, which the sensor delivers.
+// Decides the rotation of images of size `stored` whose file notes an orientation. If the
+// calibration of `info` fits only the rotated images, it is rotated back to the images as stored.
+// If it fits both, it is that of the images as stored, which the sensor delivers.
 ImageTurn ChooseTurn(Rotation rotation,
                      const Orientation& noted,
                      ImageSize stored,
                      DatasetInfo& info);
 
-// Returns what is known of a sequence whose frames are prepared. What is done becomes notes. Ground
-// truth of the camera turns with it. Without a calibration (DatasetInfo::has_calibration), images
-// are only turned.
+// Returns the description of a sequence of prepared frames, with notes about the preparation.
+// Ground truth of the camera rotates with it. Without a calibration (DatasetInfo::has_calibration),
+// images are only rotated.
 DatasetInfo Prepared(DatasetInfo info, const FramePreparation& preparation, const ImageTurn& turn);
 
-// Returns a data set whose frames are those of `recorded` after a FramePreparation, or `recorded`
-// itself where that changes nothing.
+// Returns a data set with the frames of `recorded` after a FramePreparation, or `recorded` itself
+// if that changes nothing.
 std::unique_ptr<Dataset> PrepareFrames(std::unique_ptr<Dataset> recorded,
                                        const ImageTurn& turn,
                                        std::optional<int> max_width);

@@ -10,23 +10,22 @@
 
 namespace plumbline {
 
-// The word of DatasetOptions::ground_truth that leaves the ground truth aside.
+// Value of DatasetOptions::ground_truth that disables ground truth.
 constexpr const char* kNoGroundTruth = "none";
 
-// Where the ground truth of a data set is, and what it is about.
+// Delivered ground truth of a data set: its files and frame.
 struct DeliveredTruth {
-  std::vector<std::filesystem::path> files = {};  // the first one that exists is read; need not be
+  std::vector<std::filesystem::path> files = {};  // candidates: the first existing file is read
   GroundTruth::Frame frame = GroundTruth::Frame::kCamera;
   const std::vector<StampedRow>* times = nullptr;  // of the rows of KITTI poses
 };
 
-// Reads the ground truth of a data set into info.ground_truth: that of the file which the options
-// name, else the delivered one, where there is any. Both are read in the formats of ReadTrajectory
-// and are of the delivered frame; rows that cannot be used are left out and become notes
-// (BadRows::kLeaveOut).
+// Reads the ground truth of a data set into info.ground_truth: from the file named by the options,
+// otherwise the delivered one, if any. Both are read in the formats of ReadTrajectory and are of
+// the delivered frame; unusable rows are left out, with notes (BadRows::kLeaveOut).
 //
-// A delivered file that cannot be used refuses nothing: its fault becomes info.ground_truth_fault.
-// One that the options name was asked for: it throws the InputError. Poses of a body need
+// An unusable delivered file is not an error: its fault becomes info.ground_truth_fault. For a file
+// named by the options the InputError is thrown. Poses of a body need
 // info.calibration.body_from_left, which must have been read before.
 void AddGroundTruth(const DeliveredTruth& delivered,
                     const DatasetOptions& options,

@@ -9,8 +9,8 @@
 
 namespace plumbline {
 
-// Opens a folder of images, which are in natural order of their names and `rate_hz` of the camera
-// file apart. Throws the errors of OpenDataset.
+// Opens a folder of images, in natural order of their names and at the `rate_hz` of the camera
+// file. Throws the errors of OpenDataset.
 std::unique_ptr<Dataset> OpenImageFolder(const std::filesystem::path& path,
                                          const DatasetOptions& options);
 

@@ -16,40 +16,40 @@
 
 namespace plumbline {
 
-// Returns the names of the images of keyframes when a map is exported: the time stamp in
-// nanoseconds, "1403636580863555584.png". Further keyframes of one time, in the order of their ids,
-// get "<stamp>_2.png", "<stamp>_3.png" and so on.
+// Returns the names of the images of keyframes in an exported map: the time stamp in nanoseconds,
+// "1403636580863555584.png". Further keyframes of one time, in the order of their ids, get
+// "<stamp>_2.png", "<stamp>_3.png" and so on.
 std::map<KeyFrameId, std::string> KeyFrameImageNames(const Map& map);
 
-// The images of a map's keyframes, and of other frames, as the camera of the map sees them: without
-// distortion, rectified for stereo, in colour where the data have colour. They are found by their
-// time stamps in the data from which the map was made.
+// The images of a map's keyframes, and of other frames, for the camera of the map: without
+// distortion, rectified for stereo, in colour if the data have colour. They are found by their time
+// stamps in the data of the map.
 //
-// Stamps alone do not tell whether the data are those: the stamps of a run that was played
-// backwards are mirrored, and sessions of one map may have the same stamps. So each image is
-// described again at the places of the keyframe's features, where the same image gives the same
-// descriptors. An image that was blurred for the run (--blur) is close enough.
+// Equal stamps do not prove that the data are the same: the stamps of a reversed run are mirrored,
+// and sessions of one map may have the same stamps. Descriptors are therefore computed again at the
+// keyframe's features: the same image gives the same descriptors. An image that was blurred for the
+// run (--blur) is close enough.
 class KeyFrameImages {
  public:
-  // Opens the data. `options` without a sensor: the sensor is the one whose images fit the map;
-  // without a greatest width: that of the map's camera, so that images are reduced as for the run.
-  // Throws InputError where the data's camera is not that of the map, or the data has no frame at
-  // the time of a keyframe.
+  // Opens the data. `options` without a sensor: the sensor whose images fit the map; without a
+  // maximum width: that of the map's camera, so that images are reduced as in the run. Throws
+  // InputError if the data's camera is not that of the map, or the data has no frame at the time of
+  // a keyframe.
   KeyFrameImages(const std::filesystem::path& path,
                  const DatasetOptions& options,
                  const SavedMap& saved);
-  // The same of data that are open, with the sensor they were opened as.
+  // The same for open data, with the sensor they were opened as.
   KeyFrameImages(std::shared_ptr<const Dataset> dataset, const SavedMap& saved);
 
-  // Reads the left image. Throws InputError when it cannot be read, and where it is another one
-  // than the keyframe was made of. What features are compared with is known of maps with an
-  // octave_scale only; keyframes with very few features are not compared.
+  // Reads the left image. Throws InputError if it cannot be read, and if it differs from that of
+  // the keyframe. The comparison needs a map with an octave_scale; keyframes with very few features
+  // are not compared.
   ColorImage Read(const KeyFrame& keyframe) const;
 
-  // Whether the data have a frame of exactly this time.
+  // Returns true if the data have a frame of exactly this time.
   bool HasFrame(std::int64_t stamp_ns) const;
-  // Reads the left image of a frame that there is, without a keyframe to compare it with. Throws
-  // InputError when it cannot be read.
+  // Reads the left image of an existing frame, without comparison with a keyframe. Throws
+  // InputError if it cannot be read.
   ColorImage ReadAt(std::int64_t stamp_ns) const;
 
   // The data.

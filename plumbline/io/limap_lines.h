@@ -10,8 +10,8 @@
 
 namespace plumbline {
 
-// Writes the lines of a map with the segments that show them in the text form of LIMAP into an
-// existing folder. Ids of images and pixels (centres at 0.5, 0.5) are those of the COLMAP model
+// Writes the lines of a map with their observed segments in the text form of LIMAP into an existing
+// folder. Ids of images and pixels (centres at 0.5, 0.5) are those of the COLMAP model
 // (ColmapImageId), so that the files fit the model:
 //
 //   image_list.txt  number of images; for each its id and name
@@ -21,7 +21,7 @@ namespace plumbline {
 //                   the segments among the detections of these images
 //
 // The lines are the landmarks, from end to end of their intervals, weak ones included; they are
-// counted from 0 in the order of their ids. Throws InputError when a file cannot be written.
+// counted from 0 in the order of their ids. Throws InputError if a file cannot be written.
 void WriteLimapLines(const std::filesystem::path& folder,
                      const Map& map,
                      const std::map<KeyFrameId, std::string>& names);

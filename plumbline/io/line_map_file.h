@@ -9,10 +9,10 @@
 
 namespace plumbline {
 
-// Returns the lines of a file in the unit and world of that file: of an .obj its segments
-// (ReadObjLines), as a run makes them of its keyframes when it ends; of a .plb the line landmarks
-// of its active map, each between the ends that it has there. Throws InputError where the name has
-// another ending, and as ReadObjLines and LoadMap do.
+// Returns the lines of a file in the scale and world of that file: of an .obj its segments
+// (ReadObjLines), as written by a run at its end; of a .plb the line landmarks of its active map,
+// each between its ends. Throws InputError if the name has another extension, and like ReadObjLines
+// and LoadMap.
 std::vector<Segment3> ReadLineMap(const std::filesystem::path& path);
 
 }  // namespace plumbline

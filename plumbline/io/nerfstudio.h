@@ -12,10 +12,10 @@
 
 namespace plumbline {
 
-// Writes keyframes, and other frames behind them, as a data set of nerfstudio (transforms.json):
-// one camera without distortion, pixel centres at (0.5, 0.5), and for each of them its image and
-// the pose world_from_camera of the rectified left camera, with the axes of OpenGL (x right, y up,
-// z back). The world stays that of the map.
+// Writes keyframes, followed by other frames, as a data set of nerfstudio (transforms.json): one
+// camera without distortion, pixel centres at (0.5, 0.5), and for each frame its image and the pose
+// world_from_camera of the rectified left camera, with the axes of OpenGL (x right, y up, z back).
+// The world is that of the map.
 //
 //   images    folder of the images, relative to the file
 //   names     names of the images of all keyframes

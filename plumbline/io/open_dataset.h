@@ -10,8 +10,8 @@
 
 namespace plumbline {
 
-// Returns how a recorded sequence is stored; nullopt where there is none. A file is known by its
-// first bytes, else by the end of its name, and is otherwise a video; a folder is known by the
+// Returns the format of a recorded sequence; nullopt if it is missing. A file is recognized by its
+// first bytes, otherwise by the end of its name, and is a video if neither matches; a folder by the
 // names in it.
 std::optional<DatasetFormat> FindFormat(const std::filesystem::path& path);
 
@@ -19,8 +19,8 @@ std::optional<DatasetFormat> FindFormat(const std::filesystem::path& path);
 // calib.txt), a folder of images, a bag of ROS 1 or ROS 2 (a folder of ros2 bag or a file of it),
 // an MCAP file or a video file, and reads its lists, calibration and ground truth, not its images
 // (a video is decoded once, see video.h, and a bag or an MCAP file read once). Throws InputError
-// naming file and line for what is missing or malformed, and where the data does not offer the
-// sensor asked for.
+// naming file and line for missing or malformed data, and if the data does not have the requested
+// sensor.
 std::unique_ptr<Dataset> OpenDataset(const std::filesystem::path& path,
                                      const DatasetOptions& options = {});
 

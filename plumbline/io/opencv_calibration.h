@@ -7,8 +7,8 @@
 
 namespace plumbline {
 
-// Reads the calibration of one camera as OpenCV's calibration programs write it (FileStorage) and
-// ROS's camera_calibration does (ost.yaml, the files of camera_info):
+// Reads the calibration of one camera as written by OpenCV's calibration programs (FileStorage) and
+// by ROS's camera_calibration (ost.yaml, the files of camera_info):
 //
 //   image_width, image_height
 //   camera_matrix            3x3 without skew
@@ -16,8 +16,8 @@ namespace plumbline {
 //   distortion_model         plumb_bob, rational_polynomial (with zeros behind k3), equidistant or
 //                            fisheye; OpenCV's programs have fisheye_model, 0 or 1, in its place
 //
-// rate_hz and depth_factor, which neither writes, may be added. All other keys do not matter for
-// one camera: its name, how it is rectified for a pair, and how it was calibrated. Throws
+// rate_hz and depth_factor, which neither writes, may be added. All other keys are ignored for one
+// camera: its name, its rectification for a pair, and the process of its calibration. Throws
 // InputError naming the key.
 Calibration ReadOpenCvCalibration(const YamlSection& root);
 

@@ -6,11 +6,11 @@
 
 namespace plumbline {
 
-// Whether two paths name the same file or folder, whatever their links, `..` and spelling. Paths
-// that do not exist yet are the same if files made there would be the same.
+// Returns true if two paths name the same file or folder, whatever their links, `..` and spelling.
+// Missing paths are the same if files made there would be the same.
 bool IsSamePath(const std::filesystem::path& a, const std::filesystem::path& b);
 
-// Whether a path is a folder or lies in it, at any depth; links are followed.
+// Returns true if a path is a folder or lies in it, at any depth; links are followed.
 bool IsWithin(const std::filesystem::path& path, const std::filesystem::path& folder);
 
 }  // namespace plumbline

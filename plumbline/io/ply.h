@@ -13,16 +13,16 @@
 namespace plumbline {
 
 // Writes points and line segments as an ASCII PLY file: the points grey, then the two ends of each
-// segment in orange, joined by an `edge` element. Coordinates in metres, 6 decimals. The same input
-// gives the same bytes. `colors`, where not empty, has that of each point. Throws InputError when
-// the file cannot be written.
+// segment in orange, connected by an `edge` element. Coordinates in metres, 6 decimals. The same
+// input gives the same bytes. `colors`, if not empty, has one colour for each point. Throws
+// InputError if the file cannot be written.
 void WritePly(const std::filesystem::path& path,
               std::span<const Eigen::Vector3d> points,
               std::span<const Segment3> segments,
               std::span<const Color> colors = {});
 
-// Writes line segments as a Wavefront OBJ file of `l` elements. Coordinates and failures are as of
-// WritePly.
+// Writes line segments as a Wavefront OBJ file of `l` elements. Coordinates and failures are those
+// of WritePly.
 void WriteObjLines(const std::filesystem::path& path, std::span<const Segment3> segments);
 
 }  // namespace plumbline

@@ -34,11 +34,11 @@ struct Overlay {
 // antialiased).
 std::string EncodeOverlayPng(const GrayImage& image, const Overlay& overlay);
 
-// Writes a grey image as PNG. All functions below throw InputError when the file cannot be written.
+// Writes a grey image as PNG. All functions below throw InputError if the file cannot be written.
 void WriteGrayPng(const std::filesystem::path& path, const GrayImage& image);
-// Writes an image in colour as PNG, of one channel where red, green and blue are the same.
+// Writes an image in colour as PNG, of one channel if red, green and blue are the same.
 void WriteColorPng(const std::filesystem::path& path, const ColorImage& image);
-// Writes depth as 16-bit PNG, rounded depth * factor; 0 where it does not fit.
+// Writes depth as 16-bit PNG, rounded depth * factor; 0 if it does not fit.
 void WriteDepthPng(const std::filesystem::path& path, const DepthImage& depth, double factor);
 void WriteOverlayPng(const std::filesystem::path& path,
                      const GrayImage& image,

@@ -9,8 +9,8 @@
 
 namespace plumbline {
 
-// A frame that is no keyframe, as it goes into an export: the name of its image, and where the
-// rectified left camera was.
+// An exported frame that is no keyframe: the name of its image, and the pose of the rectified left
+// camera.
 struct PosedImage {
   std::int64_t stamp_ns = 0;
   std::string name;

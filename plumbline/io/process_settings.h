@@ -4,16 +4,16 @@
 
 namespace plumbline {
 
-// Sets up the whole process so that the library runs best. A program without other wishes calls
-// this once, before it starts threads; `plumbline` does. Without it everything works, and results
-// are the same bytes.
+// Sets up the whole process for the library. Programs without other requirements call this once,
+// before they start threads; `plumbline` does. Without it everything works, and results are the
+// same bytes.
 //
-// - OpenCV uses one thread: the library shares out the work itself, and OpenCV's threads would get
-//   in the way of its stages.
+// - OpenCV uses one thread: the library distributes the work itself, and OpenCV's threads would
+//   interfere with its stages.
 // - The allocator keeps the memory of images for the next ones (glibc only): a tenth of the time.
 // - Decoders of images and videos do not write to standard error (DropDecoderMessages).
-// - A file that grows beyond the limit of the process fails to be written (an InputError) in place
-//   of a signal that ends the program.
+// - A write beyond the file size limit of the process fails (an InputError) instead of raising a
+//   signal that ends the program.
 void SetUpProcess();
 
 }  // namespace plumbline

@@ -14,18 +14,18 @@ namespace plumbline {
 struct RecordedCamera {
   CalibrationMessage message;
   std::string source;      // "drive.bag: /cam0/camera_info"
-  bool rectified = false;  // its images are rectified: their camera is P, not K and D
+  bool rectified = false;  // true if its images are rectified: their camera is P, not K and D
 };
 
-// Whether the camera was calibrated. Drivers send zeros if not.
+// Returns true if the camera was calibrated. Drivers send zeros if not.
 bool IsCalibrated(const CalibrationMessage& message);
 
-// Returns the calibration that sensor_msgs/CameraInfo (or foxglove.CameraCalibration) describes,
-// with a distortion that SetNamedDistortion knows. In a pair, R turns each camera into the
-// rectified pair and P of the right one has the baseline: -P[3] / P[0], metres.
+// Returns the calibration of a sensor_msgs/CameraInfo (or foxglove.CameraCalibration), with a
+// distortion known to SetNamedDistortion. In a pair, R rotates each camera into the rectified pair
+// and P of the right one has the baseline: -P[3] / P[0], metres.
 //
-// Throws InputError "source: ..." for other models, binned or cut images, a pair in which only one
-// camera has rectified images or P has no baseline, and numbers that no camera has.
+// Throws InputError "source: ..." for other models, binned or cropped images, a pair in which only
+// one camera has rectified images or P has no baseline, and implausible numbers.
 Calibration CalibrationOf(const RecordedCamera& left, const std::optional<RecordedCamera>& right);
 
 }  // namespace plumbline

@@ -14,9 +14,9 @@
 
 namespace plumbline {
 
-// A binary file of sections, each compressed by itself (zstd, where that makes it smaller) and with
+// A binary file of sections, each compressed by itself (zstd, if that makes it smaller) and with
 // checksums of its own, so that files of any size are written and read with the memory of one
-// section. After a preamble of bytes of the caller, for each section, little-endian:
+// section. A preamble of bytes of the caller is followed by each section, little-endian:
 //
 //   bytes  what
 //   4      kind, of the caller
@@ -34,7 +34,7 @@ class SectionWriter {
 
   void Write(std::uint32_t kind, std::string_view contents);
 
-  // Gives the file its name, once everything is on the disk. Without this call nothing is left.
+  // Gives the file its name, once everything is on the disk. Without this call the file is removed.
   void Commit();
 
  private:
@@ -43,12 +43,12 @@ class SectionWriter {
 
 class SectionReader {
  public:
-  // Opens a file and reads as many bytes as a preamble has, or all where there are fewer. Throws
-  // InputError when there is no such file.
+  // Opens a file and reads the bytes of the preamble, or all if there are fewer. Throws InputError
+  // if the file is missing.
   SectionReader(const std::filesystem::path& path, std::size_t preamble_bytes);
 
   const std::string& preamble() const { return preamble_; }
-  // Returns the bytes that follow the sections read so far.
+  // Returns the number of bytes after the sections read so far.
   std::uint64_t remaining() const { return remaining_; }
   const std::string& source() const { return source_; }
 
@@ -56,8 +56,8 @@ class SectionReader {
     std::uint32_t kind = 0;
     std::string contents;
   };
-  // Returns the next section. Throws InputError naming the file when it ends early or a checksum is
-  // wrong. Takes at most some hundred times as much memory as the section takes in the file.
+  // Returns the next section. Throws InputError naming the file if it ends early or a checksum is
+  // wrong. Takes at most some hundred times the memory of the section in the file.
   Section Next();
 
  private:
@@ -69,12 +69,12 @@ class SectionReader {
   std::string preamble_;
 };
 
-// The preamble of files that have a version: eight bytes that tell what they are, and the version
-// in four, little-endian.
+// Preamble of files with a version: eight bytes that identify the format, and the version in four,
+// little-endian.
 inline constexpr std::size_t kVersionedPreambleBytes = 12;
 std::string VersionedPreamble(std::string_view magic, std::uint32_t version);
-// Returns the version of a file that was opened with a preamble of that size; nullopt where it does
-// not begin with `magic`. Throws InputError where the file ends before the version does.
+// Returns the version of a file opened with a preamble of that size; nullopt if it does not begin
+// with `magic`. Throws InputError if the file ends before the version does.
 std::optional<std::uint32_t> VersionOf(const SectionReader& file, std::string_view magic);
 
 }  // namespace plumbline

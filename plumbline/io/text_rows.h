@@ -14,15 +14,15 @@
 
 namespace plumbline {
 
-// One row of a text table, cut into fields without surrounding blanks.
+// One row of a text table, split into fields without surrounding blanks.
 struct TextRow {
   int line = 0;  // from 1
   std::vector<std::string> fields;
 };
 
 // Returns the rows of a text file without empty lines and comments (from '#' at the start of a
-// line). Fields end at `separator`, or at any run of blanks where that is ' '. Line ends may be CR
-// LF. Fails (FailAt) at a row of more than kLongestLine bytes.
+// line). Fields end at `separator`, or at any run of blanks if that is ' '. Line ends may be CR LF.
+// Fails (FailAt) at a row of more than kLongestLine bytes.
 constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 std::vector<TextRow> ReadRows(const std::filesystem::path& path, char separator);
 
@@ -32,35 +32,35 @@ std::vector<TextRow> ReadRows(const std::filesystem::path& path, char separator)
                          std::string_view expected,
                          std::string_view found);
 
-// Fails (FailAt) unless stamp_ns is above `previous`, where there is a previous row.
+// Fails (FailAt) unless stamp_ns is above `previous`, if given.
 void CheckStampOrder(const std::filesystem::path& path,
                      int line,
                      std::optional<std::int64_t> previous,
                      std::int64_t stamp_ns);
 
-// Returns the number that the whole text is, if it is finite.
+// Returns the finite number that is the whole text; otherwise nullopt.
 std::optional<double> ParseNumber(std::string_view text);
 // Returns a field of the row as a finite number; otherwise fails (FailAt). `what` names it: "the x
 // position".
 double NumberField(const std::filesystem::path& path, const TextRow& row, std::size_t field);
-// Returns the fields from `first` on as the coordinates of a place, which must be finite and within
-// kFarthest of the origin (FailAt otherwise). Squares of larger ones would overflow.
+// Returns the fields from `first` on as the coordinates of a position, which must be finite and
+// within kFarthest of the origin (FailAt otherwise). Squares of larger ones would overflow.
 constexpr double kFarthest = 1e9;  // metres
 Eigen::Vector3d PlaceFields(const std::filesystem::path& path,
                             const TextRow& row,
                             std::size_t first,
                             std::size_t step = 1);
 
-// The latest time stamp that is read, in the year 2096. The sum of two fits into 64 bits.
+// The latest valid time stamp, in the year 2096. The sum of two fits into 64 bits.
 constexpr std::int64_t kLatestStampNs = 4'000'000'000'000'000'000;
-// Whether ReadTrajectory accepts a trajectory with this stamp: its times may be before 0.
+// Returns true for a stamp accepted by ReadTrajectory: its times may be before 0.
 constexpr bool IsReadableStamp(std::int64_t stamp_ns) {
   return stamp_ns >= -kLatestStampNs && stamp_ns <= kLatestStampNs;
 }
 
 // Returns a time as nanoseconds, read from the decimal text without loss (rounded to the nearest
-// nanosecond where there are more than nine decimals): "1305031102.175304", "1.037e-01". It must
-// not be before 0 or after kLatestStampNs.
+// nanosecond if there are more than nine decimals): "1305031102.175304", "1.037e-01". It must not
+// be before 0 or after kLatestStampNs.
 std::optional<std::int64_t> ParseSeconds(std::string_view text);
 // Returns a date and a time of day, "2011-09-26" and "13:02:25.964389445", as nanoseconds since
 // 1970 as if they were of UTC. Not before 1970, nor after kLatestStampNs.

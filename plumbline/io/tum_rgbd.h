@@ -10,9 +10,9 @@
 namespace plumbline {
 
 // Opens a folder in TUM RGB-D form (rgb.txt, depth.txt, groundtruth.txt; ICL-NUIM without
-// depth.txt). A colour image is joined with the depth image nearest in time where each is the
-// nearest to the other and they are at most 20 ms apart. Other images are left out of RGB-D, with a
-// note. Throws the errors of OpenDataset.
+// depth.txt). A colour image and a depth image are paired if they are mutually nearest in time and
+// at most 20 ms apart. Other images are left out of RGB-D, with a note. Throws the errors of
+// OpenDataset.
 std::unique_ptr<Dataset> OpenTum(const std::filesystem::path& path, const DatasetOptions& options);
 
 }  // namespace plumbline

@@ -14,13 +14,12 @@
 
 namespace plumbline {
 
-// A group of keys of a YAML file that knows its place, for messages. All members that read a value
-// throw InputError "source:line: key: expected ..., found ..." when it is missing or of another
-// kind.
+// A group of keys of a YAML file with its path, for messages. All members that read a value throw
+// InputError "source:line: key: expected ..., found ..." if it is missing or of another kind.
 class YamlSection {
  public:
   // Reads the whole file. Files in the dialect of OpenCV's FileStorage (first line `%YAML:1.0`,
-  // values right after the colon) are read as well. Throws InputError when it is not YAML or not a
+  // values right after the colon) are read as well. Throws InputError if it is not YAML or not a
   // group of keys.
   static YamlSection Parse(const std::string& yaml, const std::string& source);
 
@@ -43,15 +42,15 @@ class YamlSection {
   double Positive(const std::string& key) const;
   // Returns a list of numbers, whose length must be one of `counts`.
   std::vector<double> Numbers(const std::string& key, const std::vector<std::size_t>& counts) const;
-  // Returns a matrix. It may be given as its numbers row by row in one list, as a list of rows, or
-  // as a group with `data` (and `rows`, `cols`) as OpenCV and EuRoC write it.
+  // Returns a matrix, given as its numbers row by row in one list, as a list of rows, or as a group
+  // with `data` (and `rows`, `cols`) as in files of OpenCV and EuRoC.
   Eigen::MatrixXd Matrix(const std::string& key, int rows, int cols) const;
-  // Returns a rigid motion given as a 4x4 matrix, or 3x4 where rows = 3. The rotation may be off by
+  // Returns a rigid motion given as a 4x4 matrix, or 3x4 if rows = 3. The rotation may be off by
   // 1e-3, as in files with few decimals, and is made exact.
   Rigid3 Motion(const std::string& key, int rows = 4) const;
   Eigen::Quaterniond Rotation(const std::string& key) const;
 
-  // Throws InputError naming the nearest known key when the group has a key that is not known.
+  // Throws InputError naming the nearest known key if the group has an unknown key.
   void RejectUnknown(const std::vector<std::string>& known) const;
 
  private:
