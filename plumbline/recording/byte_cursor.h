@@ -11,8 +11,8 @@
 namespace plumbline {
 
 // Reads little-endian numbers and texts from bytes of unknown origin. Reading beyond the end gives
-// zeros and empty texts, and ok() is false from then on, so that a whole record can be read first
-// and tested once.
+// zeros and empty texts, and ok() is false from then on, so that a record can be read as a whole
+// before the check.
 class ByteCursor {
  public:
   explicit ByteCursor(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -40,7 +40,7 @@ class ByteCursor {
     const std::span<const std::uint8_t> bytes = Take(count);
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
   }
-  // Reads a text behind its length in 32 bits.
+  // Reads a text preceded by its length in 32 bits.
   std::string_view Text32() { return Text(U32()); }
   // Moves to the next position that is a multiple of `size`, counted from the first byte.
   void Align(std::size_t size) { Take((size - at_ % size) % size); }

@@ -18,29 +18,29 @@
 
 namespace plumbline {
 
-// The bytes of unpacked parts, shared by all that read from them.
+// The bytes of unpacked chunks, shared by all their readers.
 using ChunkBytes = std::shared_ptr<const std::vector<std::uint8_t>>;
 
-// A file of messages in parts that are each packed by themselves. Messages of parts that were read
-// recently are found quickly.
+// A file of messages in separately packed chunks. Messages of recently read chunks are found
+// quickly.
 class ChunkFile : public Recording {
  public:
-  // Opens a file; `name` is what messages call it, where it is not its path. Throws InputError
-  // where there is no such file.
+  // Opens a file; messages use `name`, if given, instead of its path. Throws InputError if the file
+  // is missing.
   explicit ChunkFile(const std::filesystem::path& path, const std::filesystem::path& name = {});
 
   std::uint64_t size() const { return size_; }
 
-  // Adds a part of the file and returns its index: `stored` bytes at `offset`, which hold `size`
-  // bytes.
+  // Adds a chunk of the file and returns its index: `stored` bytes at `offset`, `size` bytes when
+  // unpacked.
   std::uint32_t AddChunk(std::uint64_t offset,
                          std::uint64_t stored,
                          Compression compression,
                          std::uint64_t size);
 
-  // Returns bytes of the file as they are. Throws InputError where it has fewer.
+  // Returns bytes of the file unchanged. Throws InputError if it has fewer.
   std::vector<std::uint8_t> Bytes(std::uint64_t offset, std::uint64_t count) const;
-  // Returns the unpacked part, or what is wrong with it. Thread-safe.
+  // Returns the unpacked chunk, or its fault. Thread-safe.
   Expected<ChunkBytes, std::string> Chunk(std::uint32_t index) const;
   Expected<std::vector<std::uint8_t>, std::string> StoredBytes(
       const StoredMessage& message) const override;
@@ -53,7 +53,7 @@ class ChunkFile : public Recording {
     std::uint64_t offset = 0, stored = 0, size = 0;
     Compression compression = Compression::kNone;
   };
-  // The parts that were used last, newest first: messages of two cameras lie close together.
+  // The most recently used chunks, newest first: messages of two cameras lie close together.
   using RecentChunks = std::array<std::pair<std::uint32_t, ChunkBytes>, 4>;
 
   std::uint64_t size_ = 0;

@@ -13,15 +13,15 @@ namespace plumbline {
 enum class MessageKind { kImage, kCompressedImage, kCalibration };
 enum class MessageEncoding { kRos1, kCdr, kProtobuf };
 
-// The form of a channel's messages, as far as this program understands it.
+// Form of a channel's messages, as far as supported.
 struct MessageForm {
   MessageKind kind = MessageKind::kImage;
   MessageEncoding encoding = MessageEncoding::kRos1;
 };
 
-// An image as it was sent. Its fields are not checked against one another.
+// An image as sent. Its fields are not checked against one another.
 struct ImageMessage {
-  std::int64_t stamp_ns = 0;  // stamp of the sensor; 0 where it was not set
+  std::int64_t stamp_ns = 0;  // stamp of the sensor; 0 if not set
   bool compressed = false;    // `data` is an image file
   // "mono8", "bgr8"; for a compressed image its format: "jpeg".
   std::string encoding;
@@ -29,10 +29,10 @@ struct ImageMessage {
   std::uint32_t width = 0, height = 0, step = 0;
   bool big_endian = false;
   std::span<const std::uint8_t> data;  // points into the message that was parsed
-  std::string frame;  // coordinate frame of the camera (frame_id); empty where it was not set
+  std::string frame;  // coordinate frame of the camera (frame_id); empty if not set
 };
 
-// The numbers of a camera as sensor_msgs/CameraInfo has them.
+// Camera parameters in the form of sensor_msgs/CameraInfo.
 struct CalibrationMessage {
   std::uint32_t width = 0, height = 0;
   std::string distortion_model;

@@ -26,7 +26,7 @@ struct McapChannel {
 
 // Writes an MCAP file (mcap.dev/spec, version 0): messages in chunks packed by Zstandard, each with
 // an index of its messages, and a summary at the end, all with checksums. The file grows under the
-// name FILE.part, from which `mcap recover` makes a complete one when the program dies. It gets its
+// name FILE.part, from which `mcap recover` makes a complete one if the program dies. It gets its
 // own name when it is complete. One program at a time writes a file: the part is locked.
 class McapFileWriter {
  public:
@@ -35,23 +35,23 @@ class McapFileWriter {
   // Returns the beginning of every file: the format's magic, and a header that names this library.
   static std::string Beginning();
 
-  // Where a file grows that is to be at `path`.
+  // Returns the path of the growing part of the file `path`.
   static std::filesystem::path PartOf(const std::filesystem::path& path);
 
-  // Throws InputError, which says what to do, where something is at the place of the part that no
-  // program left there that died while it wrote such a file: a link, a file of another kind, what
-  // another program is writing. Touches nothing.
+  // Throws InputError with instructions if the path of the part is taken by anything other than the
+  // part of a program that died while writing: a link, a file of another kind, a file being written
+  // by another program. Changes nothing.
   static void CheckPart(const std::filesystem::path& path);
 
-  // Moves what is at the place of the part to the first of FILE.part-1, FILE.part-2 ... that is
-  // free, and returns a sentence that says so; nullopt: nothing is there. Throws as CheckPart.
+  // Moves an existing part to the first free name of FILE.part-1, FILE.part-2 ..., and returns a
+  // sentence about it; nullopt if there is none. Throws like CheckPart.
   static std::optional<std::string> SetPartAside(const std::filesystem::path& path);
 
-  // Begins a file, and sets aside a part that is there. Throws InputError where the file cannot be
+  // Begins a file, and sets an existing part aside. Throws InputError if the file cannot be
   // written, as do all functions.
   explicit McapFileWriter(std::filesystem::path path);
-  // Completes the file, and says nothing where that fails. A file without messages is removed: it
-  // would take the place of an earlier one when a program fails before there is anything to write.
+  // Completes the file, and reports no failure. A file without messages is removed: it would
+  // replace an earlier one if a program fails before its first message.
   ~McapFileWriter();
   McapFileWriter(const McapFileWriter&) = delete;
   McapFileWriter& operator=(const McapFileWriter&) = delete;
@@ -65,9 +65,9 @@ class McapFileWriter {
  private:
   struct ChunkPlace {
     std::uint64_t first_ns = 0, last_ns = 0;
-    std::uint64_t offset = 0, size = 0;              // place and size of its record
+    std::uint64_t offset = 0, size = 0;              // position and size of its record
     std::uint64_t packed = 0, unpacked = 0;          // bytes of its messages
-    std::uint64_t index_size = 0;                    // bytes of the index records behind it
+    std::uint64_t index_size = 0;                    // bytes of its index records
     std::map<std::uint16_t, std::uint64_t> indices;  // offset of the index of each channel
   };
   struct CloseFile {
@@ -76,7 +76,7 @@ class McapFileWriter {
   // Times, and offsets in the chunk.
   using Index = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
 
-  [[noreturn]] void Fail() const;  // throws with the last message of the operating system
+  [[noreturn]] void Fail() const;  // throws with the last error of the operating system
   void Append(const std::string& bytes);
   void EndChunk();
   void AppendSummary();

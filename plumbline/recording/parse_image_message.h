@@ -16,7 +16,7 @@ namespace plumbline {
 // protobuf; nullopt for all others.
 std::optional<MessageForm> FormOf(const Channel& channel);
 
-// Return nullopt where the bytes are no such message. `form` must be that of an image, or of a
+// Return nullopt if the bytes are no message of this form. `form` must be that of an image, or of a
 // calibration.
 std::optional<ImageMessage> ParseImage(MessageForm form, std::span<const std::uint8_t> bytes);
 std::optional<CalibrationMessage> ParseCalibration(MessageForm form,

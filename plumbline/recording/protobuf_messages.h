@@ -12,7 +12,7 @@ namespace plumbline {
 
 // Parse messages of Foxglove's schemas (foxglove.RawImage, CompressedImage, CameraCalibration) in
 // the wire format of Protocol Buffers (protobuf.dev/programming-guides/encoding). Unknown fields
-// are skipped; missing ones have their default. Return nullopt where the bytes are no such message.
+// are skipped; missing ones have their default. Return nullopt if the bytes are malformed.
 std::optional<ImageMessage> ParseProtobufImage(bool compressed,
                                                std::span<const std::uint8_t> bytes);
 std::optional<CalibrationMessage> ParseProtobufCalibration(std::span<const std::uint8_t> bytes);

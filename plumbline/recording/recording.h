@@ -26,23 +26,23 @@ struct Channel {
   std::string encoding;  // "ros1", "cdr", "protobuf", or another one
 };
 
-// The place of a message.
+// Location of a message.
 struct StoredMessage {
   std::uint32_t channel = 0;   // index of its channel
-  std::uint32_t chunk = 0;     // index of the part of the file that is unpacked for it, or its row
+  std::uint32_t chunk = 0;     // index of the chunk of the message, or its row
   std::uint32_t offset = 0;    // offset in the unpacked part, bytes
   std::uint32_t size = 0;      // bytes
-  std::int64_t logged_ns = 0;  // time when it was recorded
-  std::uint32_t file = 0;      // index of the file, of a recording of several
+  std::int64_t logged_ns = 0;  // time of recording
+  std::uint32_t file = 0;      // index of the file, in a recording of several
 };
 
-// Takes a message with its place and its bytes, without its header. The bytes are valid during the
-// call.
+// Receives a message with its location and its bytes, without its header. The bytes are valid
+// during the call.
 using MessageSink =
     std::function<void(const Channel&, const StoredMessage&, std::span<const std::uint8_t>)>;
 
-// Messages that were recorded, in one file or in several. The formats know how they are found
-// (ros_bag.h, mcap.h, sqlite_bag.h, rosbag2.h).
+// Recorded messages, in one file or in several. Formats are implemented by ros_bag.h, mcap.h,
+// sqlite_bag.h, rosbag2.h.
 class Recording {
  public:
   explicit Recording(std::filesystem::path path) : path_(std::move(path)) {}
@@ -50,20 +50,20 @@ class Recording {
   Recording& operator=(const Recording&) = delete;
   virtual ~Recording() = default;
 
-  // The file or folder, for messages.
+  // The file or folder, for error messages.
   const std::filesystem::path& path() const { return path_; }
   const std::vector<Channel>& channels() const { return channels_; }
-  // What is missing of it: one sentence each.
+  // Missing parts: one sentence each.
   const std::vector<std::string>& notes() const { return notes_; }
 
   // Adds a channel and returns its index.
   std::uint32_t AddChannel(Channel channel);
   void AddNote(std::string note) { notes_.push_back(std::move(note)); }
 
-  // Returns the bytes of a message, unpacked where it was packed by itself (UnpackedMessage), or
-  // what is wrong with it. Thread-safe.
+  // Returns the bytes of a message, unpacked if it was packed by itself (UnpackedMessage), or its
+  // fault. Thread-safe.
   Expected<std::vector<std::uint8_t>, std::string> Message(const StoredMessage& message) const;
-  // Returns the bytes of a message as they are stored. Thread-safe.
+  // Returns the stored bytes of a message. Thread-safe.
   virtual Expected<std::vector<std::uint8_t>, std::string> StoredBytes(
       const StoredMessage& message) const = 0;
 
@@ -73,12 +73,12 @@ class Recording {
   std::vector<std::string> notes_;
 };
 
-// Returns what a message holds that ROS 2 packed by itself (`--compression-mode message`): the
-// bytes without the packing, or why that fails; nullopt where the message is not packed.
+// Returns the unpacked bytes of a message that ROS 2 packed by itself (`--compression-mode
+// message`), or the reason of a failure; nullopt if the message is not packed.
 std::optional<Expected<std::vector<std::uint8_t>, std::string>> UnpackedMessage(
     const Channel& channel, std::span<const std::uint8_t> bytes);
 
-// Throws InputError where there is no file at the path, or something else.
+// Throws InputError if there is no file at the path, or something else.
 void CheckIsFile(const std::filesystem::path& path);
 
 }  // namespace plumbline

@@ -11,9 +11,9 @@
 namespace plumbline {
 
 // Reads the files of one recording of ROS 2 in their order: .db3 (sqlite_bag.h) and .mcap (mcap.h),
-// each as it is or packed as a whole (.zstd: it is unpacked into a temporary file). Of a file that
-// is damaged or ends early, what can be read is read; what cannot be, is a note. `path` is the file
-// or the folder of files, for messages. Throws InputError where no file can be read.
+// each plain or packed as a whole (.zstd: it is unpacked into a temporary file). Of a damaged or
+// truncated file all readable messages are read, and the rest becomes a note. `path` is the file or
+// the folder of files, for error messages. Throws InputError if no file can be read.
 std::unique_ptr<Recording> ReadRosbag2(const std::filesystem::path& path,
                                        const std::vector<std::filesystem::path>& files,
                                        const MessageSink& sink);

@@ -12,21 +12,21 @@
 
 namespace plumbline {
 
-// The bytes with which SQLite's files begin.
+// First bytes of SQLite's files.
 inline constexpr std::string_view kSqliteMagic{"SQLite format 3\0", 16};
 
-// Whether a file begins as SQLite's do.
+// Returns true if a file begins like SQLite's.
 bool BeginsAsSqlite(std::span<const std::uint8_t> bytes);
 
 // Reads a .db3 file of ROS 2 (rosbag2's storage `sqlite3`, all its versions: tables `topics` and
-// `messages`) from its first message to its last, and hands those of the types that FormOf knows to
-// `sink`. Others are not read. The file is neither changed nor locked. Where a recorder's journal
-// (-wal, -journal) lies beside it, both are copied to a temporary folder, and the journal is played
-// back there.
+// `messages`) from its first message to its last, and passes those of the types known to FormOf to
+// `sink`. Others are not read. The file is neither changed nor locked. If a recorder's journal
+// (-wal, -journal) lies beside it, both are copied to a temporary folder, and the journal is
+// applied there.
 //
-// Messages on damaged pages, or behind the end of a file that was cut short, are left out, with a
-// note. `name` is what messages call the file, where it is not its path. Throws InputError for what
-// is no such file. Cost: reading the file once; later, the pages of each message again.
+// Messages on damaged pages, or after the end of a truncated file, are left out, with a note.
+// Messages use `name`, if given, instead of the path. Throws InputError for another kind of file.
+// Cost: reading the file once; later, the pages of each message again.
 std::unique_ptr<Recording> ReadSqliteBag(const std::filesystem::path& path,
                                          const MessageSink& sink,
                                          const std::filesystem::path& name = {});

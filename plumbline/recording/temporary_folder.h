@@ -6,10 +6,10 @@
 
 namespace plumbline {
 
-// A folder of its own among the temporary files (TMPDIR), which is removed with all that is in it.
+// A folder of its own among the temporary files (TMPDIR), removed at destruction with all contents.
 class TemporaryFolder {
  public:
-  // Throws InputError where none can be made.
+  // Throws InputError if it cannot be made.
   TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
