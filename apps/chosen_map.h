@@ -12,8 +12,8 @@ namespace plumbline {
 inline const CommandOption kMapOption = {
     "--map", "N", "the map of this number (default: the one to go on with)"};
 
-// Makes the map that --map names the active one, and returns it; without --map the one that is to
-// be gone on with. Throws InputError where the file, the first argument, has no such map, or none.
+// Makes the map named by --map the active one, and returns it; without --map the active map. Throws
+// InputError if the file, the first argument, does not have the map, or has none.
 Map& ChooseMap(const CommandLine& line, Atlas& atlas);
 
 }  // namespace plumbline

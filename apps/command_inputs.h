@@ -11,9 +11,9 @@
 
 namespace plumbline {
 
-// What a command reads: the data set, which is the first positional argument, the files of
-// --camera, --poses and --config, as far as they are given, and the ground truth. A live source,
-// what comes from a pipe, and a camera that is built in have no place.
+// Returns the input files of a command: the data set, which is the first positional argument, the
+// files of --camera, --poses and --config, if given, and the ground truth. Live sources, pipes, and
+// built-in cameras have no path.
 std::vector<RunInput> CommandInputs(const CommandLine& line, const Dataset& dataset);
 
 // The help of --rotate and --max-width is the same in every command that reads images.
@@ -22,7 +22,7 @@ inline constexpr const char* kRotateHelp =
 inline constexpr const char* kMaxWidthHelp =
     "reduce wider images to this width (default: to 2 megapixels)";
 
-// Reads --rotate and --max-width. InputError for other values than these.
+// Reads --rotate and --max-width. Throws InputError for invalid values.
 Rotation ReadRotation(const CommandLine& line);
 std::optional<int> ReadMaxWidth(const CommandLine& line);
 

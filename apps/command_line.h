@@ -14,48 +14,48 @@
 
 namespace plumbline {
 
-// An option of a subcommand, as `plumbline SUBCOMMAND --help` lists it.
+// An option of a subcommand, as listed by `plumbline SUBCOMMAND --help`.
 struct CommandOption {
   std::string name;   // "--align"
-  std::string value;  // what follows it, "none|se3|sim3"; empty for a switch
-  std::string help;   // with "may be repeated" for one that may
+  std::string value;  // its value, "none|se3|sim3"; empty for a switch
+  std::string help;   // contains "may be repeated" if it may
 };
 
-// An option of earlier versions. Whoever gives it is told what serves instead.
+// An option of earlier versions. Its use is an error that names the successor.
 struct RemovedOption {
   std::string name;     // "--resume"
-  std::string instead;  // a sentence without its point
+  std::string instead;  // successor, as a sentence without its full stop
 };
 
-// What a subcommand takes.
+// Syntax of a subcommand.
 struct CommandSyntax {
-  std::string name;                      // "evaluate"
-  std::string summary;                   // one sentence
-  std::vector<std::string> positionals;  // "REFERENCE", "ESTIMATE": all needed, in this order;
-                                         // one in brackets, "[PATH]", may be left out, and the
-                                         // last may be "[PATH ...]": any number of them
-  std::vector<CommandOption> options;    // --help is understood always
+  std::string name;     // "evaluate"
+  std::string summary;  // one sentence
+  // "REFERENCE", "ESTIMATE": all required, in this order; "[PATH]" is optional, and the last may be
+  // "[PATH ...]": any number of them
+  std::vector<std::string> positionals;
+  std::vector<CommandOption> options;  // without --help, which is always understood
   std::vector<RemovedOption> removed = {};
 };
 
-// Whole numbers that an option takes, both ends included. What is beyond is no wish that anybody
-// has but a slip, and would keep the program busy or ask for memory without end.
+// Valid whole numbers of an option, both ends included. Numbers beyond are surely mistakes, and
+// would keep the program busy or exhaust the memory.
 struct CountRange {
   int min = 0;
   int max = 0;
 };
 
-// Frames by index, as --from, --to, --stride and the like take them.
+// Limit of frame indices, for --from, --to, --stride and similar options.
 constexpr int kMostFrames = 1'000'000'000;
 
-// The arguments of a subcommand, taken apart: `--name value`, `--name=value`, switches and
-// positional arguments in any order; everything behind `--` is positional.
+// The parsed arguments of a subcommand: `--name value`, `--name=value`, switches and positional
+// arguments in any order; everything after `--` is positional.
 class CommandLine {
  public:
-  // Throws InputError for an unknown option (with the nearest one there is, or
-  // what serves instead of a removed one), a value that is
-  // missing, empty or not wanted, a second value of an option that may not be repeated, or a wrong
-  // number of positional arguments. With --help among the arguments nothing else is checked.
+  // Throws InputError for an unknown option (with the nearest known one, or the successor of a
+  // removed one), a value that is missing, empty or unexpected, a second value of an option that
+  // may not be repeated, or a wrong number of positional arguments. With --help among the arguments
+  // nothing else is checked.
   CommandLine(const CommandSyntax& syntax, std::span<const std::string> arguments);
 
   bool help() const { return Has("--help"); }
@@ -64,12 +64,12 @@ class CommandLine {
   std::optional<std::string> Value(std::string_view option) const;
   // All values given, in order, for options that may be repeated.
   std::vector<std::string> Values(std::string_view option) const;
-  // A whole number within the range, or `fallback` where the option is not given. Throws InputError
-  // for anything else.
+  // A whole number within the range, or `fallback` without the option. Throws InputError for
+  // anything else.
   int Count(std::string_view option, int fallback, CountRange range) const;
-  // Empty when a positional argument that may be left out is.
+  // Empty if an optional positional argument is missing.
   const std::string& Positional(std::size_t index) const;
-  // The positional arguments from one on, as many as there are.
+  // All positional arguments from `index` on.
   std::vector<std::string> PositionalsFrom(std::size_t index) const;
 
  private:
@@ -79,15 +79,15 @@ class CommandLine {
   std::vector<std::string> positionals_;
 };
 
-// A whole number within the range; InputError "--start: expected a whole number from 0 to 9, found
-// x" for any other text.
+// Returns a whole number within the range. Throws InputError "--start: expected a whole number from
+// 0 to 9, found x" for any other text.
 int ParseCount(std::string_view option, std::string_view text, CountRange range);
 
 // The text of --help.
 std::string HelpText(const CommandSyntax& syntax);
 
-// The enumerator with this name; InputError "--align: expected none, se3 or sim3, found se2".
-// Enum types list their names as described in base/options.h.
+// Returns the enumerator of this name. Throws InputError "--align: expected none, se3 or sim3,
+// found se2". Enum types list their names as described in base/options.h.
 [[noreturn]] void FailChoice(std::string_view option,
                              std::span<const std::string> names,
                              std::string_view found);

@@ -7,40 +7,40 @@
 #include <string_view>
 #include <utility>
 
-// An output that a user names replaces files of its own kind only (docs/adr/0016); one rule for the
+// An output named by a user replaces only files of its own kind (docs/adr/0016); one rule for the
 // program and for Python.
 namespace plumbline {
 
-// Files that a command writes to a place that users name.
+// Kind of files that a command writes to paths of users.
 struct FileKind {
   std::string_view name;   // "a map"
-  std::string_view begin;  // what each of them begins with
-  // Whether a file that begins so is one; null: it is.
+  std::string_view begin;  // first bytes of each of them
+  // Returns true if a file with these first bytes is of this kind; null: always.
   bool (*is_one)(const std::filesystem::path& file) = nullptr;
 };
 
-// Maps (map.plb), and trajectories as WriteTum writes them.
+// Maps (map.plb), and trajectories written by WriteTum.
 FileKind MapFileKind();
 FileKind TrajectoryFileKind();
 
-// Throws InputError, which names the option, when there is a file at `file` that is not empty and
-// of another kind: somebody else's would be lost. Touches nothing.
+// Throws InputError, which names the option, if `file` exists, is not empty and is of another kind:
+// it would be lost. Changes nothing.
 void CheckReplacesItsKind(std::string_view option,
                           const std::filesystem::path& file,
                           const FileKind& kind);
 
-// Throws InputError, which names both options, when two outputs of a command are one file. Outputs
+// Throws InputError, which names both options, if two outputs of a command are one file. Outputs
 // are options with their files.
 void CheckApartFromEachOther(
     std::span<const std::pair<std::string_view, std::filesystem::path>> outputs);
 
-// Throws InputError, which names the option, when a file would take the place of a result of the
-// run whose folder it is to lie in (CheckNoResult). Touches nothing.
+// Throws InputError, which names the option, if a file would replace a result of the run in whose
+// folder it is (CheckNoResult). Changes nothing.
 void CheckKeepsResults(std::string_view option, const std::filesystem::path& file);
 
-// Throws InputError, which names the option, where writing `output` would take the place of what is
-// read (by whatever name: reading it is no leave to write over it), of a result of a run, or of a
-// file of another kind, and for "-", which elsewhere means standard output. Touches nothing.
+// Throws InputError, which names the option, if `output` would replace an input (by whatever name:
+// reading does not permit writing), a result of a run, or a file of another kind, and for "-",
+// which elsewhere means standard output. Changes nothing.
 void CheckOutput(std::string_view option,
                  const std::filesystem::path& output,
                  std::span<const std::filesystem::path> inputs,

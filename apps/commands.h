@@ -7,10 +7,10 @@
 
 namespace plumbline {
 
-// The subcommands, one in each file of this folder. `arguments` are those behind the name of the
+// The subcommands, one in each file of this folder. `arguments` are those after the name of the
 // command; the result is the exit code. Bad input or usage is thrown as InputError, which main
-// prints in one line and turns into exit code 2. A new command: a file, a line here, and a row in
-// main.cc. Those of the worlds and of the laboratory are there where these are built.
+// prints in one line and turns into exit code 2. A new command needs a file, a line here, and a row
+// in main.cc. Those of the worlds and of the laboratory exist if these are built.
 int ConfigCommand(std::span<const std::string> arguments);
 int EvaluateCommand(std::span<const std::string> arguments);
 int ExperimentCommand(std::span<const std::string> arguments);

@@ -9,7 +9,7 @@
 
 namespace plumbline {
 
-// Returns how many there are of something: "1 keyframe", "20 keyframes". The plural ends with s.
+// Returns a number with its noun: "1 keyframe", "20 keyframes". The plural ends with s.
 template <class Number>
 std::string Counted(Number count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");

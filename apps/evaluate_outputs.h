@@ -13,36 +13,36 @@
 
 namespace plumbline {
 
-// Returns a name for each of several paths, as short as tells them apart: the last parts of the
-// path joined by "_", without ".txt". The second of two equal paths gets "-2" and so on.
+// Returns a name for each of several paths, as short as possible but different: the last parts of
+// the path joined by "_", without ".txt". The second of two equal paths gets "-2" and so on.
 std::vector<std::string> ShortNames(const std::vector<std::string>& paths);
 
-// Where `evaluate` writes, as its options say.
+// Outputs of `evaluate`, by its options.
 struct EvaluateOutputs {
   bool json_to_stdout = false;  // --json -
   std::optional<std::filesystem::path> json, plot, plot_lines;
   std::vector<std::filesystem::path> aligned;  // one for each estimate; empty: none
-  // The folder of the aligned trajectories, where it has to be made.
+  // The folder of the aligned trajectories, if it has to be made.
   std::optional<std::filesystem::path> new_folder;
 };
 
-// Reads the options; `names` are those of the estimates (ShortNames), by which the aligned
-// trajectories in a folder are called. Throws InputError for names that cannot be.
+// Reads the options; `names` are those of the estimates (ShortNames), which name the aligned
+// trajectories in a folder. Throws InputError for invalid names.
 EvaluateOutputs ReadOutputs(const CommandLine& line, const std::vector<std::string>& names);
 
-// Throws InputError where an output would take the place of what is compared, of a data set's files
-// or those of a run, of a file of another kind, or of another output. Touches nothing.
+// Throws InputError if an output would replace an input of the comparison, files of a data set or
+// of a run, a file of another kind, or another output. Changes nothing.
 //
 //   reference  the first argument
 //   estimates  the other ones
-//   read       all files that are read
+//   read       all input files
 void CheckOutputs(const EvaluateOutputs& outputs,
                   const std::filesystem::path& reference,
                   const std::vector<std::string>& estimates,
                   const std::vector<std::filesystem::path>& read);
 
-// Returns an aligned trajectory in TUM form, below a comment that says what it is. Throws
-// InputError, which names `file`, where ReadTrajectory would not read it (WriteTum).
+// Returns an aligned trajectory in TUM form, below a comment that describes it. Throws InputError,
+// which names `file`, if ReadTrajectory would not read it (WriteTum).
 FileContents AlignedFile(const std::filesystem::path& file, const Trajectory& aligned);
 
 // Writes all files or none (WriteFilesAtomically).

@@ -17,32 +17,32 @@
 
 namespace plumbline {
 
-// Where the estimated lines are put.
+// Alignment of the estimated lines.
 enum class LineAlignment {
   kTrajectory,  // by the alignment of the trajectory
-  kPoses,       // and then turned and moved for the poses to agree, AlignPoses
+  kPoses,       // the same, then rotated and moved so that the poses agree, AlignPoses
 };
 constexpr auto EnumNames(std::type_identity<LineAlignment>) {
   return std::array{std::pair{LineAlignment::kTrajectory, "trajectory"},
                     std::pair{LineAlignment::kPoses, "poses"}};
 }
 
-// A comparison and what it was made of.
+// A comparison and its inputs.
 struct Evaluation {
-  std::string estimate;  // as it was given
-  std::string name;      // what tables and figures call it, where there are several
+  std::string estimate;  // as given
+  std::string name;      // name in tables and figures of several estimates
   ReferenceTrajectory reference;
-  std::int64_t offset_ns = 0;             // what was added to the stamps of the estimate
-  std::optional<std::string> aligned_by;  // the trajectory whose alignment was taken
-  // True if lengths of the estimate are in a unit of its own, which the alignment left as it is.
+  std::int64_t offset_ns = 0;             // added to the stamps of the estimate
+  std::optional<std::string> aligned_by;  // the trajectory whose alignment was used
+  // True if the scale of the estimate is arbitrary, and not changed by the alignment.
   bool unit_is_free = false;
   TrajectoryErrorOptions options;
   TrajectoryError error;
-  // Images that the run was given; nullopt where nothing beside the trajectories tells.
+  // Images given to the run; nullopt if unknown.
   std::optional<std::size_t> frames_delivered;
   LineAlignment line_alignment = LineAlignment::kPoses;
   LineMapErrorOptions line_options;
-  std::optional<LineMapError> lines;  // nullopt where no lines were compared
+  std::optional<LineMapError> lines;  // nullopt without compared lines
 };
 
 // A small table for people, with units.
@@ -51,12 +51,12 @@ std::string EvaluationTable(const Evaluation& evaluation);
 // The same for programs. Keys: alignment, aligned_by, association, time_offset_s, window,
 // frames_delivered, frames_with_pose, frames_compared, coverage, scale, scale_drift, degenerate,
 // ate_m, rpe_m_per_s, roe_deg_per_s, line_map. The three errors are {count, rmse, mean, median,
-// max, std, p75, p95}, or null where there is nothing to compare; line_map is null without lines.
+// max, std, p75, p95}, or null if there is nothing to compare; line_map is null without lines.
 // Shares are in [0, 1].
 std::string EvaluationJson(const Evaluation& evaluation);
 
-// The same of several estimates: for each error one table with a row for each of them; and
-// {"estimates": [...]}, each of the form of EvaluationJson below "estimate" and "name".
+// The same for several estimates: for each error one table with a row for each of them; and
+// {"estimates": [...]}, each in the form of EvaluationJson after "estimate" and "name".
 std::string EvaluationsTable(const std::vector<Evaluation>& evaluations);
 std::string EvaluationsJson(const std::vector<Evaluation>& evaluations);
 

@@ -9,8 +9,8 @@
 
 namespace plumbline {
 
-// What a run of `plumbline experiment` does for one experiment, for those of a group, and for one
-// that computes by itself. Returns the exit code: 1 where a limit of a gate is broken.
+// Execute `plumbline experiment` for one experiment, for a group, and for one that computes by
+// itself. Return the exit code: 1 if a limit of a gate is exceeded.
 int RunExperiment(const Experiment& experiment, const CommandLine& line);
 int RunGroup(const ExperimentGroup& group, const CommandLine& line);
 int RunComputed(const ComputedExperiment& experiment, const CommandLine& line);

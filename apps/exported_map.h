@@ -21,11 +21,11 @@
 #include <utility>
 #include <vector>
 
-// What `plumbline map export` and Map.export of Python do. Messages name options of the command
-// line; Python turns them into the names of its arguments.
+// Implementation of `plumbline map export` and of Map.export of Python. Messages name options of
+// the command line; Python replaces them by the names of its arguments.
 namespace plumbline {
 
-// The forms in which a map is written.
+// Formats of an exported map.
 enum class ExportFormat { kPly, kObj, kDxf, kTum, kColmap, kNerfstudio };
 constexpr auto EnumNames(std::type_identity<ExportFormat>) {
   return std::array{std::pair{ExportFormat::kPly, "ply"},
@@ -36,47 +36,46 @@ constexpr auto EnumNames(std::type_identity<ExportFormat>) {
                     std::pair{ExportFormat::kNerfstudio, "nerfstudio"}};
 }
 
-// What an export of this form may take the place of; folders have to be new or empty.
+// Kind of files that an export of this format may replace; folders must be new or empty.
 FileKind KindOfExport(ExportFormat format);
 
-// Which frames go into an export: the keyframes, and of the other frames with a pose every n-th.
-// Reads "keyframes" (0), "all" (1), or "every:N" (N); throws InputError for another text.
+// Reads the frames of an export: the keyframes, and of the other frames with a pose every n-th:
+// "keyframes" (0), "all" (1), or "every:N" (N); throws InputError for another text.
 int ParseExportedFrames(std::string_view text);
 
-// Throws InputError where a form has no images, or needs some, and where frames besides keyframes
-// (every > 0) are asked for without images.
+// Throws InputError if images are given for a format without, or missing for one with images, and
+// if frames other than keyframes (every > 0) are requested without images.
 void CheckExport(ExportFormat format, bool has_images, int every);
 
-// Returns the file that has the poses of a map's frames, in the folder of the run that wrote the
-// map file: trajectory_map<id>.txt where there is one, otherwise trajectory.txt. Throws InputError
-// where there is neither.
+// Returns the file with the poses of a map's frames, in the folder of the run that wrote the map
+// file: trajectory_map<id>.txt if it exists, otherwise trajectory.txt. Throws InputError if there
+// is neither.
 std::filesystem::path TrajectoryBeside(const std::filesystem::path& map_file, MapId map);
 
-// Returns every n-th of the frames of a trajectory that are no keyframes, at their poses; frames
-// are counted with the keyframes. Throws InputError, which names `source`, where the trajectory
-// is not that of the run that made the map: none of its poses, or another one, is at the time of
-// a keyframe.
+// Returns every n-th frame of a trajectory that is no keyframe, with its pose; the count includes
+// keyframes. Throws InputError, which names `source`, if the trajectory is not that of the run that
+// made the map: at the time of a keyframe it has no pose or a different one.
 std::vector<PosedImage> FramesBetween(const SavedMap& saved,
                                       const std::string& source,
                                       const Trajectory& trajectory,
                                       int every);
 
-// What is written of a map, and where.
+// Contents and format of an export.
 struct MapExport {
   ExportFormat format = ExportFormat::kPly;
   std::filesystem::path out;
-  const KeyFrameImages* images = nullptr;  // null: none are known
-  std::vector<PosedImage> others = {};     // frames that are no keyframes
+  const KeyFrameImages* images = nullptr;  // null: no images
+  std::vector<PosedImage> others = {};     // frames other than keyframes
   ColmapFiles colmap_files = ColmapFiles::kBoth;
-  // What decides about the lines, as in the run that made the map.
+  // Inputs of MakeLineMap, as in the run that made the map.
   CameraAndPyramid imaging = {};
   LineMapOptions line_map = {};
 };
 
-// Writes a map and returns what was written, "19 images, 800 points"; nullopt where `stop` has
-// ended it, and nothing is written. Points have the mean colour of their places in the images of
-// the keyframes. Throws InputError where an image cannot be read or is not that of its keyframe,
-// and where a file cannot be written.
+// Writes a map and returns a summary, "19 images, 800 points"; nullopt if `stop` has ended it, and
+// nothing is written. Points have their mean colour in the images of the keyframes. Throws
+// InputError if an image cannot be read or is not that of its keyframe, and if a file cannot be
+// written.
 std::optional<std::string> ExportMap(const SavedMap& saved,
                                      const MapExport& wanted,
                                      const StopCheck& stop);

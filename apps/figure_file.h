@@ -9,12 +9,11 @@
 
 namespace plumbline {
 
-// InputError unless the extension of the file is one that FigureBytes knows: to be asked before the
-// work is done.
+// Throws InputError unless FigureBytes supports the extension of the file: a check before the work.
 void CheckFigureName(const std::filesystem::path& path);
 
-// Returns the bytes of a figure as .svg or .png, by the extension of the file that they are for;
-// InputError for any other.
+// Returns the bytes of a figure as .svg or .png, by the extension of its file; throws InputError
+// for any other.
 std::string FigureBytes(const std::filesystem::path& path, const Figure& figure);
 
 }  // namespace plumbline

@@ -23,14 +23,14 @@
 
 namespace plumbline {
 
-// A frame on its way into a run.
+// An input frame of a run.
 struct InputFrame {
   std::int64_t stamp_ns = 0;
-  std::optional<SensorFrame> frame;  // nullopt: it could not be had
+  std::optional<SensorFrame> frame;  // nullopt: it could not be read
   std::string reason;                // then: a word for tables
 };
 
-// Where a run gets its frames from, one after the other.
+// Source of the frames of a run, one after the other.
 class FrameInput {
  public:
   using GoOn = std::function<bool()>;
@@ -41,15 +41,15 @@ class FrameInput {
   FrameInput& operator=(const FrameInput&) = delete;
   virtual ~FrameInput() = default;
 
-  // The next frame when it is there, or due. nullopt: there are no more, or `go_on`, which is asked
-  // often, said no.
+  // Returns the next frame as soon as it is available, or due; nullopt if there are no more, or if
+  // `go_on`, which is called often, returned false.
   virtual std::optional<InputFrame> Next(const GoOn& go_on) = 0;
-  // What comes next is due that much later: nobody asked for a while.
+  // Shifts the schedule of all later frames by `pause`.
   virtual void Delay(std::chrono::steady_clock::duration /*pause*/) {}
 };
 
-// Some of the frames of a recording, by index. Live runs get them when they are due, as far apart
-// as they were taken; others as soon as they are read.
+// Selected frames of a recording, by index. Live runs get them when they are due, at their original
+// intervals; others as soon as they are read.
 class RecordedInput : public FrameInput {
  public:
   RecordedInput(std::shared_ptr<const Dataset> dataset,
@@ -62,25 +62,25 @@ class RecordedInput : public FrameInput {
  private:
   std::shared_ptr<const Dataset> dataset_;
   std::vector<std::size_t> frames_;
-  std::size_t position_ = 0;  // of the frame that comes next
+  std::size_t position_ = 0;  // of the next frame
   bool live_;
   Say say_;
   PlaybackSchedule schedule_;
   FrameReader reader_;
 };
 
-// Which frames of a source are taken: every stride-th from `from` to before `to`.
+// Selected frames of a source: every stride-th from `from` to before `to`.
 struct FrameSelection {
   std::size_t from = 0;
   std::size_t to = 0;
   std::size_t stride = 1;
 };
 
-// The frames of a live source with stamps that increase (StampContinuity).
+// Frames of a live source with increasing stamps (StampContinuity).
 class LiveInput : public FrameInput {
  public:
   LiveInput(const std::shared_ptr<LiveSource>& source, const FrameSelection& range, Say say);
-  // InputError where the source ends before its first frame.
+  // Throws InputError if the source ends before its first frame.
   std::optional<InputFrame> Next(const GoOn& go_on) override;
 
  private:
@@ -90,10 +90,11 @@ class LiveInput : public FrameInput {
   std::string name_;
   FrameSelection range_;
   Say say_;
-  std::size_t next_ = 0;      // index of the frame that comes next
-  std::size_t position_ = 0;  // number of the chosen frame that comes next
-  std::string last_why_;      // why the chosen frame before was missing; empty: it was not
-  std::size_t alike_ = 0;     // chosen frames in succession that have this reason
+  std::size_t next_ = 0;      // index of the next frame
+  std::size_t position_ = 0;  // number of the next selected frame
+  // reason why the previous selected frame was missing; empty: it was not
+  std::string last_why_;
+  std::size_t alike_ = 0;  // successive selected frames with this reason
   StampContinuity continuity_;
   PatientReader<LiveEvent> reader_;
 };

@@ -15,11 +15,11 @@ namespace plumbline {
 // Reads frames of a data set in a thread of its own (patient_reader.h).
 class FrameReader {
  public:
-  // Throws std::system_error when no thread can be started.
+  // Throws std::system_error if no thread can be started.
   explicit FrameReader(const std::shared_ptr<const Dataset>& dataset)
       : reader_([dataset](std::size_t frame) { return dataset->Read(frame); }) {}
 
-  // Dataset::Read(frame); nullopt when that was given up.
+  // Returns Dataset::Read(frame); nullopt if the call was abandoned.
   std::optional<Expected<SensorFrame, ImageFailure>> Read(std::size_t frame,
                                                           const std::function<bool()>& go_on) {
     return reader_.Read(frame, go_on);

@@ -15,28 +15,28 @@
 
 namespace plumbline {
 
-// Where the lines to be compared are, as far as the user named files.
+// Files of the lines to compare, as far as named by the user.
 struct LineMapFiles {
   std::filesystem::path reference, estimate;  // the arguments of `evaluate`
   std::optional<std::filesystem::path> true_lines, lines, surfaces;
 };
 
-// An estimated line map and the world it is compared with.
+// An estimated line map and its reference world.
 struct LineMapInput {
   std::vector<TrueLine> truth;
-  std::vector<Parallelogram> surfaces;  // empty where they are not known
+  std::vector<Parallelogram> surfaces;  // empty if unknown
   std::vector<Segment3> estimate;       // in the world of the estimated trajectory
 };
 
-// Reads true lines (else lines.csv of the folder `reference`), surfaces (else surfaces.csv there)
-// and the line map (.obj or .plb; else lines.obj of the folder `estimate`). nullopt where there are
-// no true lines or no map of lines and no file was named; InputError where one was and another is
-// missing, and for malformed files.
+// Reads true lines (default: lines.csv of the folder `reference`), surfaces (default: surfaces.csv
+// there) and the line map (.obj or .plb; default: lines.obj of the folder `estimate`). Returns
+// nullopt if there are no true lines or no line map and no file was named; throws InputError if one
+// was named and another is missing, and for malformed files.
 std::optional<LineMapInput> LoadLineMaps(const LineMapFiles& files);
 
-// The keyframes of the run `estimate` (keyframes.txt beside its trajectory) as viewers of the true
-// lines of the data set `reference`; nullopt where one of the two is a mere file. `poses` are the
-// run's, compared.
+// Returns the keyframes of the run `estimate` (keyframes.txt beside its trajectory) as viewers of
+// the true lines of the data set `reference`; nullopt if one of the two is a plain file. `poses`
+// are the compared ones of the run.
 std::optional<LineViewers> LoadLineViewers(const LineMapFiles& files,
                                            std::span<const EvaluatedPose> poses);
 

@@ -6,8 +6,8 @@
 
 namespace plumbline {
 
-// Has lines done as the options say. Without the laboratory they stay with the method of the
-// product, and CheckOptions refuses options that ask for another one.
+// Sets the line method by the options. Without the laboratory the product's own method is used, and
+// CheckOptions refuses options that request another one.
 void ChooseLineMethod(SlamOptions& options);
 
 }  // namespace plumbline

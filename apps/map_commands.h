@@ -7,8 +7,8 @@
 
 namespace plumbline {
 
-// What `plumbline map` can do, one in each file map_*.cc; as the commands of commands.h.
-// `arguments` are those behind "map info" and so on.
+// The subcommands of `plumbline map`, one in each file map_*.cc; like those of commands.h.
+// `arguments` are those after "map info" and so on.
 int MapInfoCommand(std::span<const std::string> arguments);
 int MapExportCommand(std::span<const std::string> arguments);
 int MapMergeCommand(std::span<const std::string> arguments);

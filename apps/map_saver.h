@@ -14,21 +14,21 @@
 
 namespace plumbline {
 
-// Writes copies of a run's maps to a file while the run goes on, in a thread of its own: neither
-// tracking nor mapping waits for the disk. The copies are cleaned as the maps are when a run ends
-// (RemoveOutliers).
+// Writes copies of a run's maps to a file during the run, in a thread of its own: neither tracking
+// nor mapping waits for the disk. Outliers are removed from the copies, as from the maps at the end
+// of a run (RemoveOutliers).
 class MapSaver {
  public:
-  // The file is replaced whole each time (SaveAtlas). `lines` are the run's options of lines.
+  // The file is replaced as a whole each time (SaveAtlas). `lines` are the run's line options.
   MapSaver(std::filesystem::path file, const LineOptions& lines);
-  // Writes what it has begun with, and no more.
+  // Completes the current file, and no more.
   ~MapSaver();
   MapSaver(const MapSaver&) = delete;
   MapSaver& operator=(const MapSaver&) = delete;
 
-  // From any thread. A copy that has not been begun with is left out for this one.
+  // Takes a copy, from any thread. It replaces a copy not yet begun.
   void Take(SavedAtlas copy);
-  // What went wrong with the last copy, once; the next one is tried all the same.
+  // Returns the failure of the last copy, once; the next one is tried nevertheless.
   std::optional<std::string> TakeFailure();
 
  private:
@@ -41,7 +41,7 @@ class MapSaver {
   std::optional<SavedAtlas> next_;
   std::optional<std::string> failure_;
   bool stop_ = false;
-  std::jthread writer_;  // last, so that it ends first
+  std::jthread writer_;  // declared last: ends first
 };
 
 }  // namespace plumbline

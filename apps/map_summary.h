@@ -13,21 +13,21 @@
 
 namespace plumbline {
 
-// What is in a map, in figures. Lengths are in metres, of a single camera in the map's unit.
+// Statistics of a map. Lengths are in metres, for a single camera in map units.
 struct MapSummary {
   std::size_t keyframes = 0, points = 0, lines = 0;
   std::size_t point_observations = 0, line_observations = 0;
   std::optional<std::pair<std::int64_t, std::int64_t>> time_ns;  // first and last keyframe
-  double path_length = 0;  // along the keyframes, tracked one after the other
-  // Boxes around points and ends of lines: around all, and the middle 90 % along each axis.
+  double path_length = 0;  // along the keyframes of successive tracking
+  // Bounding boxes of points and line ends: of all, and of the middle 90 % along each axis.
   Eigen::AlignedBox3d bounds, middle_bounds;
   std::optional<double> reprojection_px;  // mean over the points (MeanReprojectionError)
 };
 
 MapSummary Summarize(const RectifiedCamera& camera, const Map& map);
 
-// The whole of `plumbline map info`: for people, the map to go on with in figures and how many
-// others there are; as JSON all maps, the one to go on with first.
+// The output of `plumbline map info`: as text, statistics of the active map and the number of
+// others; as JSON all maps, the active one first.
 std::string MapInfoTable(const std::filesystem::path& path, const SavedAtlas& saved);
 std::string MapInfoJson(const std::filesystem::path& path, const SavedAtlas& saved);
 

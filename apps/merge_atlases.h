@@ -13,27 +13,26 @@
 
 namespace plumbline {
 
-// Saved maps and what messages call them: the file, mostly.
+// Saved maps and their name in messages, usually the file.
 struct NamedAtlas {
   std::string name;
   SavedAtlas saved;
 };
 
 struct MergedAtlases {
-  SavedAtlas saved;               // its active map is the joined one
-  Similarity3 first_from_second;  // of the worlds
-  std::vector<LoopEdge> overlap;  // as of MergedMaps; empty where the transform was given
-  int ties = 0;                   // as of MergedMaps
+  SavedAtlas saved;               // the merged map is the active one
+  Similarity3 first_from_second;  // from world to world
+  std::vector<LoopEdge> overlap;  // as in MergedMaps; empty if the transform was given
+  int ties = 0;                   // as in MergedMaps
 };
 
-// Told a sentence about what makes the result worth less.
+// Called with a sentence for each flaw of the result.
 using Remark = std::function<void(const std::string&)>;
 
-// Makes one map of the active maps of two atlases of the same camera, in the world of the first:
-// joined as `transform` (first_from_second) says, or where they show the same places (MergeMaps,
-// with the options that the first was made with). Throws InputError for atlases without maps, for
-// other cameras, for a scale of maps of measured depth, and for maps that cannot be merged for
-// certain.
+// Merges the active maps of two atlases of the same camera, in the world of the first: by
+// `transform` (first_from_second), or by common places (MergeMaps, with the options of the first
+// map). Throws InputError for atlases without maps, for other cameras, for a scale between maps of
+// measured depth, and for maps that cannot be merged reliably.
 MergedAtlases MergeAtlases(NamedAtlas first,
                            const NamedAtlas& second,
                            const std::optional<Similarity3>& transform,

@@ -17,20 +17,20 @@
 
 namespace plumbline {
 
-// Calls a function that may take for ever in a thread of its own, so that a disk, a network or a
-// camera that does not answer holds nobody up.
+// Calls a function that may never return in a thread of its own, so that an unresponsive disk,
+// network or camera does not block the caller.
 template <class Result>
 class PatientReader {
  public:
   using Function = std::function<Result(std::size_t)>;
 
-  // Throws std::system_error when no thread can be started.
+  // Throws std::system_error if no thread can be started.
   explicit PatientReader(Function read)
       : exchange_(std::make_shared<Exchange>(std::move(read))),
         thread_([exchange = exchange_] { Work(exchange); }) {}
   PatientReader(const PatientReader&) = delete;
   PatientReader& operator=(const PatientReader&) = delete;
-  // Does not wait for a call that was given up: its thread stays behind until it ends.
+  // Does not wait for an abandoned call: its thread remains until it ends.
   ~PatientReader() {
     {
       const std::lock_guard lock(exchange_->mutex);
@@ -44,9 +44,10 @@ class PatientReader {
     }
   }
 
-  // What the function returns for `which`. `go_on` is asked about every 50 ms while that takes;
-  // when it says no, the call has a quarter of a second more, then it is given up: nullopt, and
-  // nothing can be read any more, as when it throws. Rethrows what either function throws.
+  // Returns the result of the function for `which`. Meanwhile `go_on` is called about every 50 ms;
+  // once it returns false, the call has another quarter of a second, then it is abandoned: the
+  // result is nullopt, and nothing can be read any more, as after an exception. Rethrows exceptions
+  // of both functions.
   std::optional<Result> Read(std::size_t which, const std::function<bool()>& go_on) {
     constexpr std::chrono::milliseconds kAskEvery(50);
     constexpr std::chrono::milliseconds kGrace(250);
@@ -96,7 +97,7 @@ class PatientReader {
       std::exception_ptr failure;
       try {
         result = exchange->read(which);
-      } catch (...) {  // rethrown in the thread that waits
+      } catch (...) {  // rethrown in the waiting thread
         failure = std::current_exception();
       }
       lock.lock();

@@ -12,20 +12,20 @@
 
 namespace plumbline {
 
-// Says on stderr how far something is: a bar on a terminal, a line every few seconds elsewhere.
+// Reports progress on stderr: a bar on a terminal, otherwise a line every few seconds.
 class ProgressLine {
  public:
   explicit ProgressLine(bool quiet);
 
-  // May be called as often as one likes; the end, done == total, is always shown.
+  // May be called at any rate; the end, done == total, is always shown.
   void Show(std::size_t done, std::size_t total, const std::string& text);
 
-  // The same where nobody knows how much there will be.
+  // The same with an unknown total.
   void ShowOpen(const std::string& text);
-  // Behind the last ShowOpen.
+  // To be called after the last ShowOpen.
   void End() const;
 
-  // A message between two lines of progress. May come from another thread than Show.
+  // Prints a message between two lines of progress. May be called from another thread than Show.
   void Say(const std::string& message) const;
 
  private:
@@ -36,23 +36,22 @@ class ProgressLine {
   Clock::time_point shown_ = Clock::now();
 };
 
-// The same for a job of many equal parts, with the time left. Not for use from several threads at
-// once.
+// The same for a job of many equal parts, with the time left. Not thread-safe.
 class Countdown {
  public:
-  // `what` are the parts, in the plural; total is nullopt where nobody knows it.
+  // `what` are the parts, in the plural; total is nullopt if unknown.
   Countdown(std::string what, std::optional<std::size_t> total, bool quiet = false)
       : what_(std::move(what)), total_(total), line_(quiet) {}
 
-  // After each part; `note` is added to the line.
+  // To be called after each part; `note` is added to the line.
   void Show(std::size_t done, const std::string& note = {});
 
-  // When there will be no more parts.
+  // To be called after the last part.
   void End() const {
     if (!total_) line_.End();
   }
 
-  // As of ProgressLine.
+  // See ProgressLine.
   void Say(const std::string& message) const { line_.Say(message); }
 
  private:
@@ -64,17 +63,17 @@ class Countdown {
   Clock::time_point start_ = Clock::now();
 };
 
-// Shows how far a run is.
+// Shows the progress of a run.
 class Progress {
  public:
   Progress(std::optional<std::size_t> total, bool quiet) : countdown_("frames", total, quiet) {}
 
-  // After each frame.
+  // To be called after each frame.
   void Show(const FrameRecord& frame);
 
   void End() const { countdown_.End(); }
 
-  // As of ProgressLine.
+  // See ProgressLine.
   void Say(const std::string& message) const { countdown_.Say(message); }
 
  private:

@@ -16,7 +16,7 @@
 
 namespace plumbline {
 
-// What the poses of a reference file are about.
+// Frame of the poses of a reference file.
 enum class ReferenceFrame { kCamera, kBody };
 constexpr auto EnumNames(std::type_identity<ReferenceFrame>) {
   return std::array{std::pair{ReferenceFrame::kCamera, "camera"},
@@ -26,27 +26,27 @@ constexpr auto EnumNames(std::type_identity<ReferenceFrame>) {
 struct ReferenceTrajectory {
   Trajectory poses;  // of the left camera
   TrajectoryFormat format = TrajectoryFormat::kTum;
-  std::optional<std::size_t> frames;  // images of the sequence beside it, where they are listed
+  std::optional<std::size_t> frames;  // images of the sequence beside it, if listed
   std::filesystem::path path;         // the file that was read
-  std::vector<std::string> notes;     // which of its rows are left out
+  std::vector<std::string> notes;     // rows left out
 };
 
 // Reads ground truth from a file (TUM form, EuRoC csv, KITTI poses) or from the folder of a data
-// set that has it.
+// set.
 //
-// `frame` says what the poses are about; nullopt: the body for EuRoC, else the camera. Poses of a
-// body are converted with cam0/sensor.yaml of the same recording. Rows that cannot be used are left
-// out (BadRows::kLeaveOut). Throws InputError where there is no ground truth, no row of it that can
-// be used, or a body without that file.
+// `frame` is the frame of the poses; nullopt: the body for EuRoC, otherwise the camera. Poses of a
+// body are converted with cam0/sensor.yaml of the same recording. Unusable rows are left out
+// (BadRows::kLeaveOut). Throws InputError without ground truth, without usable rows, or for a body
+// without that file.
 ReferenceTrajectory LoadReference(const std::filesystem::path& path,
                                   std::optional<ReferenceFrame> frame);
 
-// Number of frames a run was given, from the frames.csv beside its trajectory; nullopt without one,
-// and where the manifest beside it (RunManifest) does not list the trajectory.
+// Returns the number of frames given to a run, from the frames.csv beside its trajectory; nullopt
+// without one, and if the manifest beside it (RunManifest) does not list the trajectory.
 std::optional<std::size_t> FramesOfRun(const std::filesystem::path& trajectory);
 
-// Whether the summary.json beside a trajectory says that it is that of a single camera, whose scale
-// is free; false without one, and where the manifest beside it does not list the trajectory.
+// Returns true if the summary.json beside a trajectory says that it is of a single camera, with
+// arbitrary scale; false without one, and if the manifest beside it does not list the trajectory.
 bool IsMonocularRun(const std::filesystem::path& trajectory);
 
 }  // namespace plumbline

@@ -23,26 +23,27 @@ namespace plumbline {
 
 class Viewer;
 
-// What a run is fed with.
+// Input of a run.
 struct RunFrames {
-  std::shared_ptr<const Dataset> dataset;  // of a live source: what is known of it, no frames
+  std::shared_ptr<const Dataset> dataset;  // of a live source: its description, without frames
   std::vector<std::size_t> frames;         // by index in the data set
-  std::shared_ptr<LiveSource> live;        // in place of a data set; may be null
-  FrameSelection range;                    // of its frames
+  std::shared_ptr<LiveSource> live;        // replaces a data set; may be null
+  FrameSelection range;                    // of the live source's frames
   int blur = 0;                            // box filter on every image; 0: none
-  int save_every_s = 0;                    // map.plb into the part of the folder; 0: never
-  std::shared_ptr<Viewer> viewer;          // that shows the run; may be null
+  // interval of writing map.plb into the part of the folder; 0: never
+  int save_every_s = 0;
+  std::shared_ptr<Viewer> viewer;  // displays the run; may be null
 };
 
-// Frames that are shown with their features, kept until there is time to draw them.
+// Frames to be shown with their features, stored until they can be drawn.
 class KeptViews {
  public:
-  // Views are kept of some of the frames, spread evenly. Of a live source, whose
-  // end nobody knows: of every n-th, where n doubles when there are too many.
+  // Stores views of some of the frames, spread evenly; of a live source, whose length is unknown,
+  // of every n-th, where n doubles when there are too many.
   explicit KeptViews(const RunFrames& input);
 
   void Offer(std::size_t position, const FrameView& view);
-  // The number of the frame as played, and the view.
+  // Number of the frame as played, and its view.
   const std::vector<std::pair<std::size_t, FrameView>>& views() const { return views_; }
 
  private:
@@ -51,27 +52,28 @@ class KeptViews {
   std::set<std::size_t> wanted_;  // positions in the run
   std::vector<std::pair<std::size_t, FrameView>> views_;
   bool live_ = false;
-  std::size_t every_ = 1;  // position that is kept, of a live source
+  std::size_t every_ = 1;  // interval of stored positions, for a live source
 };
 
-// How far a run came.
+// Progress of a run at its end.
 struct Processed {
   std::optional<double> first_pose_seconds;  // from the start of the process
-  // Why not all frames were taken, or mapping is not complete: an InputError, with what the machine
-  // was short of too, or something unforeseen.
+  // Reason why not all frames were taken, or mapping is not complete: an InputError, also for a
+  // lack of memory or threads, or something unexpected.
   std::exception_ptr failure;
-  std::optional<std::string> not_recorded;  // why --record has no whole file
-  std::vector<std::string> notes;           // what the images showed to be wrong with the data
-  bool no_depth = false;                    // there were depth images, and all were zero everywhere
+  std::optional<std::string> not_recorded;  // reason why --record has no complete file
+  std::vector<std::string> notes;           // faults of the data found in the images
+  // true if there were depth images, all of them zero everywhere
+  bool no_depth = false;
 };
 
-// Reads the frames and feeds them to the system until there are no more, somebody asks to stop
+// Reads the frames and feeds them to the system until there are no more, a stop is requested
 // (StopRequested) or something fails, then completes the mapping. Each step ends within a second
-// when a signal asks for it. What there is so far is kept in the journal's files, all of it before
-// the maps are adjusted at the end.
+// after a signal. Intermediate results are kept in the journal's files, all of them before the
+// final adjustment of the maps.
 //
-// Bad input in the middle, such as an image of another size, ends a run, as do memory and threads
-// that run out; what was done until then is kept. Throws when that is nothing.
+// Bad input in the middle, for example an image of another size, ends a run, as does a lack of
+// memory or threads; results so far are kept. Throws if there are none.
 Processed ProcessFrames(
     const RunFrames& input, bool quiet, System& system, RunFolder& folder, KeptViews& views);
 

@@ -15,36 +15,37 @@
 
 namespace plumbline {
 
-// A run whose frames are processed.
+// A run with all frames processed.
 struct FinishedRun {
   const System& system;
   const Dataset& dataset;
   const KeptViews& views;
   RunDescription
-      description;  // whether it was interrupted is found out when the summary is written
+      description;  // without the interruption, which is determined when the summary is written
   std::optional<double> first_pose_seconds;
   std::chrono::steady_clock::time_point start;
 };
 
 struct WrittenResults {
-  std::optional<std::string> failure;     // which files could not be written, in one line
-  std::optional<StopSignal> interrupted;  // as the summary has it
-  bool earlier_kept = false;              // an earlier run's results stay: these are worth less
+  std::optional<std::string> failure;     // files that could not be written, in one line
+  std::optional<StopSignal> interrupted;  // as in the summary
+  bool earlier_kept = false;              // true if better results of an earlier run are kept
 };
 
-// Writes all files of a run into the part of its folder, those first that are worth most for their
-// size, and puts them in their places. A signal cuts the line map short and leaves out pictures
-// that are not drawn yet; the summary and the report tell of it.
+// Writes all files of a run into the part of its folder, the most valuable for their size first,
+// and moves them into place. A signal cuts the line map short and leaves out pictures not yet
+// drawn, as the summary and the report state.
 //
-// Files that cannot be written do not keep the others from it. Where these would replace whole
-// results of an earlier run, those stay, and these are in the part. So they do where the run has no
-// pose, or was cut off and has fewer poses than the earlier one of the same data.
+// Files that cannot be written do not prevent the others. If these would replace complete results
+// of an earlier run, the earlier ones stay, and the new ones are left in the part. The same applies
+// if the run has no pose, or was interrupted and has fewer poses than the earlier one of the same
+// data.
 WrittenResults WriteResults(const FinishedRun& run, RunFolder& folder);
 
-// Returns why a run found no pose at all, in one line; nullopt where a frame has one.
+// Returns the reason why a run found no pose at all, in one line; nullopt if a frame has one.
 std::optional<std::string> WhyNoPose(const FrameLog& frames, bool no_depth);
 
-// A few lines on standard output.
+// Prints a few lines on standard output.
 void PrintResult(const System& system, const Dataset& dataset, const std::string& folder);
 
 }  // namespace plumbline

@@ -7,12 +7,12 @@
 
 namespace plumbline {
 
-// What the machine had too little of, for a sentence, when that is what an exception tells: "out of
-// memory", "no further thread can be started"; null for any other.
+// Returns the resource that an exception reports as exhausted, for a sentence: "out of memory", "no
+// further thread can be started"; null for any other.
 const char* ShortageOf(const std::exception& error);
 
-// Address space put aside, so that what is left to do can be done when memory has run out. It takes
-// no memory until then.
+// Reserved address space, so that remaining work can be done when memory is exhausted. It takes no
+// memory until then.
 class MemoryReserve {
  public:
   // Throws std::bad_alloc.

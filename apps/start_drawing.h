@@ -8,9 +8,9 @@
 
 namespace plumbline {
 
-// Writes a PNG of the first and the newest view of a map beside each other: the points both show
-// with the way from one to the other, red for the nearest to blue for the furthest of the map, and
-// the lines. Nothing where the views have no images.
+// Writes a PNG of the first and the newest view of a map side by side: their common points with
+// their displacement, coloured by depth from red (nearest) to blue (furthest of the map), and the
+// lines. Does nothing if the views have no images.
 void WriteStartDrawing(const InitialMap& map,
                        const RectifiedCamera& camera,
                        const std::filesystem::path& path);

@@ -9,16 +9,15 @@
 
 namespace plumbline {
 
-// From now on SIGINT, SIGTERM and SIGHUP do not end the program: they make StopRequested() true. A
-// SIGHUP that is ignored (nohup) stays so.
+// Makes SIGINT, SIGTERM and SIGHUP set StopRequested() from now on instead of ending the program.
+// An ignored SIGHUP (nohup) stays ignored.
 void CatchStopSignals();
 bool StopRequested();
 
-// From now on writing to a pipe that nobody reads any more is an error, and does not end the
-// program.
+// Makes writing to a closed pipe an error from now on, instead of ending the program.
 void IgnoreBrokenPipes();
 
-// The first signal that came: "SIGINT" and the code of a program that it ended, 130; 143 for both
+// The first signal received: "SIGINT" and the exit code of a program ended by it, 130; 143 for both
 // SIGTERM and SIGHUP.
 struct StopSignal {
   std::string name;
@@ -26,8 +25,8 @@ struct StopSignal {
 };
 std::optional<StopSignal> FirstStopSignal();
 
-// For a step that comes after what a signal stopped: says stop when a signal comes during the step,
-// and a second after this call when one had come before; with the second signal at once.
+// Returns the stop check of a step after an interrupted one: it stops at a signal during the step;
+// if one came before, a second after this call, and with the second signal at once.
 StopCheck StepStop();
 
 }  // namespace plumbline

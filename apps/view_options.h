@@ -9,9 +9,9 @@
 
 namespace plumbline {
 
-// Where a viewer is to listen by --view and --view-origin, nullopt where none was asked for. Who
-// listens for others than this machine gets a token. InputError for what is no address or origin,
-// and where the token would not be told (quiet).
+// Reads the address of the viewer from --view and --view-origin; nullopt if not requested.
+// Listening for other machines requires a token. Throws InputError for an invalid address or
+// origin, and if the token would not be printed (quiet).
 std::optional<WebAccess> ReadViewOptions(const CommandLine& line, bool quiet);
 
 }  // namespace plumbline
