@@ -17,8 +17,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
-// Between numpy arrays and values of the library. What comes in is checked, copied, and may be
-// freed by the caller at once; what goes out is a new array, or a view that keeps its owner alive.
+// Conversion between numpy arrays and values of the library. Input is checked and copied, and may
+// be freed by the caller at once; output is a new array, or a view that keeps its owner alive.
 namespace plumbline::python {
 
 namespace py = pybind11;
@@ -26,29 +26,29 @@ namespace py = pybind11;
 using Doubles = py::array_t<double, py::array::c_style>;
 using Integers = py::array_t<std::int64_t, py::array::c_style>;
 
-// A side of any length in a shape.
+// Any length of a dimension in a shape.
 inline constexpr py::ssize_t kAny = -1;
 using Shape = std::vector<py::ssize_t>;
 
-// Stands in arrays for a number that is missing.
+// Value of missing numbers in arrays.
 inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 enum class Numbers { kFinite, kAnyValue };
 
-// "array of float32 of shape (3, 4)", "list", for messages.
+// Returns a description for messages: "array of float32 of shape (3, 4)", "list".
 std::string Describe(py::handle value);
 
-// A copy, row by row, of an array (or list) of real numbers of any byte order and memory order.
-// Throws InputError "points: expected numbers of shape (N, 3), found ..." for another shape, for
-// what is no number, and for NaN and infinity where only finite numbers make sense.
+// Returns a copy, row by row, of an array (or list) of real numbers of any byte order and memory
+// order. Throws InputError "points: expected numbers of shape (N, 3), found ..." for another shape,
+// for anything but numbers, and for NaN and infinity if only finite numbers are valid.
 Doubles ReadDoubles(py::handle value,
                     const char* name,
                     const Shape& shape,
                     Numbers numbers = Numbers::kFinite);
-// The same of whole numbers from 0 to below `limit`.
+// The same for whole numbers from 0 to below `limit`.
 std::vector<int> ReadIndices(py::handle value, const char* name, std::size_t limit);
 
-// A number for each of `count` things: one for all, or as many, each greater than 0.
+// Returns `count` numbers, each greater than 0: from one for all, or from `count` of them.
 std::vector<double> ReadSigmas(py::handle value, const char* name, std::size_t count);
 
 std::vector<Eigen::Vector2d> ReadVectors2(py::handle value, const char* name);
@@ -65,8 +65,8 @@ void CheckCount(const char* name, std::size_t expected, std::size_t found);
 
 // 8 bits, (rows, columns), not empty.
 GrayImage ReadGray(py::handle value, const char* name);
-// Floating point numbers in metres, or whole numbers of 16 bits over `factor`; 0, NaN, infinity and
-// negative numbers: not measured.
+// Floating point numbers in metres, or 16-bit whole numbers divided by `factor`; 0, NaN, infinity
+// and negative numbers mean no measurement.
 DepthImage ReadDepth(py::handle value, const char* name, std::optional<double> factor);
 
 // New arrays.

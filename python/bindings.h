@@ -4,7 +4,7 @@
 
 #include <pybind11/pybind11.h>
 
-// What the module is made of: one function, one file for each subject.
+// Parts of the module: one function, one file for each subject.
 namespace plumbline::python {
 
 void BindErrors(pybind11::module_& module);
@@ -21,8 +21,8 @@ void BindCutting(pybind11::module_& module);
 void BindAdjustment(pybind11::module_& module);
 void BindSynth(pybind11::module_& module);
 
-// After all of these: an object that was made by __new__ without __init__ raises TypeError where it
-// is used. pybind11 would hand functions memory that nobody wrote.
+// To be called last: makes the use of an object made by __new__ without __init__ raise TypeError.
+// pybind11 would pass uninitialized memory to functions.
 void RefuseUninitialized(const pybind11::module_& module);
 
 }  // namespace plumbline::python

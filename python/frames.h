@@ -8,7 +8,7 @@
 
 namespace plumbline::python {
 
-// The images of one instant. Never changed once made, so that arrays may look into it.
+// The images of one instant. Immutable, so that arrays may refer to it.
 struct PyFrame {
   SensorFrame images;
 };

@@ -8,10 +8,10 @@
 
 namespace plumbline::python {
 
-// Does work that takes long in a thread of its own, without the GIL, while this one, which holds
-// it, lets other Python threads run and asks for signals twenty times a second. With Ctrl-C the
-// work is told to stop, and when it has come back KeyboardInterrupt is raised. Rethrows what the
-// work throws. The work must not touch Python. Cost: that of a thread.
+// Does long work in a thread of its own, without the GIL, while the calling thread, which holds it,
+// lets other Python threads run and checks for signals twenty times a second. At Ctrl-C the work is
+// told to stop, and after its return KeyboardInterrupt is raised. Rethrows exceptions of the work.
+// The work must not use Python. Cost: that of a thread.
 void RunInterruptibly(const std::function<void(const StopCheck&)>& work);
 
 }  // namespace plumbline::python

@@ -6,8 +6,8 @@
 
 namespace plumbline::python {
 
-// An iterator that asks a sequence for its items by index until it raises IndexError. It keeps the
-// sequence alive.
+// Returns an iterator over a sequence by index, until it raises IndexError. It keeps the sequence
+// alive.
 inline pybind11::object IterateByIndex(const pybind11::object& sequence) {
   PyObject* iterator = PySeqIter_New(sequence.ptr());
   if (iterator == nullptr) throw pybind11::error_already_set();

@@ -5,7 +5,7 @@
 #include "arrays.h"
 #include "maps.h"
 
-// What a map holds, as new arrays. Rows are in the order of the ids.
+// Contents of a map as new arrays. Rows are in the order of the ids.
 namespace plumbline::python {
 
 Integers PointIds(const PyMap& map);
@@ -14,7 +14,7 @@ Integers LineIds(const PyMap& map);
 Doubles Lines(const PyMap& map);
 Doubles LineEnds(const PyMap& map);
 Doubles LineInformation(const PyMap& map);
-// With the poses taken as known; NaN where the observations do not determine the point.
+// Poses count as exact; NaN if the observations do not determine the point.
 Doubles PointCovariances(const PyMap& map);
 Doubles LineEndCovariances(const PyMap& map);
 Integers KeyFrameIds(const PyMap& map);

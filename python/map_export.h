@@ -18,20 +18,19 @@
 
 namespace plumbline::python {
 
-// The line map as the run that made the map gave it out (MakeLineMap). May be called with or
-// without the lock of the interpreter.
+// Returns the line map as in the run that made the map (MakeLineMap). May be called with or without
+// the GIL.
 std::vector<MappedLine> MappedLinesOf(const PyMap& map, const StopCheck& stop);
 
 // KeyFrameTrajectory of a map.
 Trajectory KeyFrameTrajectoryOf(const PyMap& map);
 
-// The data that a map was made from: open, or where they are.
+// Data of a map: an open data set, or its path.
 using ImageSource = std::variant<std::shared_ptr<Dataset>, std::filesystem::path>;
-// Poses of frames, or the file that has them.
+// Poses of frames, or their file.
 using PoseSource = std::variant<PoseList, std::filesystem::path>;
 
-// Writes a map as `plumbline map export --to FORMAT` does, with the same checks. Holds the lock of
-// the interpreter.
+// Writes a map like `plumbline map export --to FORMAT`, with the same checks. Holds the GIL.
 void ExportMap(const PyMap& map,
                const std::filesystem::path& path,
                const std::string& format,

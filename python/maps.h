@@ -9,17 +9,17 @@
 
 namespace plumbline::python {
 
-// The maps of a file or of a system at one moment; nobody changes them.
+// Immutable maps of a file or of a system at one moment.
 struct PyAtlas {
   std::shared_ptr<const SavedAtlas> saved;
-  std::filesystem::path file = {};  // it was read from; absolute, empty: from none
+  std::filesystem::path file = {};  // source file; absolute; empty: none
 };
 
-// One of them, which keeps all alive.
+// One of these maps, which keeps all alive.
 struct PyMap {
   std::shared_ptr<const SavedAtlas> saved;
   const Map* map = nullptr;
-  std::filesystem::path file = {};  // that of the atlas
+  std::filesystem::path file = {};  // file of the atlas
 };
 
 }  // namespace plumbline::python

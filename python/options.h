@@ -18,14 +18,14 @@ void SetOptions(const pybind11::dict& given, T& options) {
   SetInTable(given, table);
 }
 
-// Arguments of a run that stand beside the groups of options; each may be None.
+// Arguments of a run beside the groups of options; each may be None.
 struct RunArguments {
-  pybind11::object preset;      // the name of a preset, whose options are set first
-  pybind11::object seed, mode;  // slam.seed and slam.mode, which must not be given twice
+  pybind11::object preset;      // name of a preset, whose options are set first
+  pybind11::object seed, mode;  // slam.seed and slam.mode, which must not be set twice
 };
 
-// Returns the options of a run, checked. Throws InputError as SetInTable, FindPreset and
-// CheckOptions do.
+// Returns the options of a run, checked. Throws InputError like SetInTable, FindPreset and
+// CheckOptions.
 SlamOptions ReadRunOptions(const RunArguments& arguments, const pybind11::dict& given);
 
 // The values of all options, in groups.

@@ -18,9 +18,8 @@
 
 namespace plumbline::python {
 
-// A System with its Pipeline, as Python uses it: one call at a time, frames in order, nothing after
-// the end; InputError where a caller does otherwise. Knows no Python: all may be called without the
-// GIL.
+// A System with its Pipeline for Python: one call at a time, frames in order, nothing after the
+// end; InputError otherwise. Independent of Python: all functions may be called without the GIL.
 class RunningSystem {
  public:
   RunningSystem(const Calibration& calibration, const SlamOptions& options);
@@ -28,27 +27,28 @@ class RunningSystem {
   const Calibration& calibration() const { return calibration_; }
   const SlamOptions& options() const { return options_; }
 
-  // Hands the images of a frame over. Its record comes out of TakeRecords.
+  // Feeds the images of a frame. Its record is returned by TakeRecords.
   void Feed(SensorFrame frame);
-  // Feed, and waits for the record, which TakeRecords does not give again: who calls nothing else
-  // must not gather records for ever.
+  // Feeds a frame and waits for its record, which TakeRecords does not return again, so that
+  // callers of Process alone do not accumulate records.
   FrameRecord Process(SensorFrame frame);
-  // A frame without images.
+  // Adds a frame without images.
   void Skip(std::int64_t stamp_ns, const std::string& reason);
-  // Returns the records of the frames that were tracked since the last call, in order, without
-  // those that Process returned.
+  // Returns the records of frames tracked since the last call, in order, without those returned by
+  // Process.
   std::vector<FrameRecord> TakeRecords();
   std::vector<std::string> Continue(SavedAtlas saved, bool read_only);
-  // From now on views of some of these frames are kept, for the report.
+  // Stores views of these frames from now on, for the report.
   void KeepViews(const std::vector<std::size_t>& frames);
   void Finish(const StopCheck& stop);
   bool finished() const { return finished_; }
 
-  // The maps when mapping has done what was handed over so far, at any time after the first frame.
+  // Returns the maps once mapping has done all tasks submitted so far, at any time after the first
+  // frame.
   SavedAtlas CopyMaps();
   MapEvents Events();
-  // What happened to maps at large since the last call, as far as it is known by now: in order, but
-  // when a loop becomes known depends on the machine's speed. After the end: all that is left.
+  // Returns the map events since the last call that are known by now: in order, but the time at
+  // which a loop becomes known depends on the machine's speed. After the end: all remaining ones.
   MapEvents TakeEvents();
   // Calls `use` with the system, which must be finished.
   template <class Use>
@@ -81,11 +81,11 @@ class RunningSystem {
   std::optional<double> first_pose_seconds_;
   std::mutex records_mutex_;
   std::vector<FrameRecord> records_;        // not taken yet
-  std::optional<std::int64_t> awaited_ns_;  // stamp of the frame that Process waits for
+  std::optional<std::int64_t> awaited_ns_;  // stamp of the frame awaited by Process
   std::optional<FrameRecord> awaited_;      // its record
   MapEvents events_;                        // not taken yet
   MapEventCounts events_known_;             // taken or in events_; the tracking thread's
-  Pipeline pipeline_;                       // last: its thread calls Observe
+  Pipeline pipeline_;                       // declared last: its thread calls Observe
 };
 
 }  // namespace plumbline::python

@@ -7,7 +7,7 @@
 
 namespace plumbline::python {
 
-// What the calibration is of.
+// Returns the sensor of a calibration.
 inline SensorKind KindOf(const Calibration& calibration) {
   if (calibration.right) return SensorKind::kStereo;
   return calibration.depth_factor ? SensorKind::kRgbd : SensorKind::kMono;

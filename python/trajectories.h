@@ -6,7 +6,7 @@
 
 namespace plumbline::python {
 
-// A trajectory as a value of Python's, which a plain vector could not be.
+// A trajectory as a Python object, which a plain vector could not be.
 struct PoseList {
   Trajectory poses;
 };
