@@ -6,7 +6,7 @@
 
 namespace plumbline::bench {
 
-// Prints how well our LBD and OpenCV's tell lines apart, on the same lines.
+// Prints the matching precision of our LBD and of OpenCV's on the same lines.
 void PrintDescriptorPrecision(const std::string& data);
 
 }  // namespace plumbline::bench

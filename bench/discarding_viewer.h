@@ -8,8 +8,8 @@
 
 namespace plumbline {
 
-// A client of the viewer that asks for all channels and throws away what it is sent, in a thread of
-// its own. It waits until somebody listens on the port, and ends when the server closes.
+// A client of the viewer that subscribes to all channels and discards all messages, in a thread of
+// its own. It waits until the port is open, and ends when the server closes.
 class DiscardingViewer {
  public:
   explicit DiscardingViewer(std::uint16_t port);
@@ -17,7 +17,7 @@ class DiscardingViewer {
   DiscardingViewer(const DiscardingViewer&) = delete;
   DiscardingViewer& operator=(const DiscardingViewer&) = delete;
 
-  // Size of all messages that it was sent so far.
+  // Size of all messages received so far.
   std::uint64_t bytes() const { return bytes_; }
 
  private:

@@ -8,18 +8,18 @@
 
 namespace plumbline {
 
-// How a long drive comes back to where it was. Ten parts in all of those that do.
+// Shape of a long drive that revisits places. Ten parts in all shapes with revisits.
 enum class DriveShape {
-  kStraight,  // never
-  kChain,     // each part is a circuit, the last sixth of it driven twice; the next goes on there
+  kStraight,  // no revisits
+  kChain,     // each part is a circuit, its last sixth driven twice; the next begins there
   kHub,       // each part begins with the same street
   kRounds,    // all parts are rounds through the same streets
 };
 
 constexpr int kDriveParts = 10;
 
-// The place at which each keyframe of a drive stands. Neighbouring places are a metre apart; a
-// place that several keyframes have was driven through as often, in the same direction.
+// Returns the place of each keyframe of a drive. Neighbouring places are a metre apart; a place of
+// several keyframes was driven through as often, in the same direction.
 inline std::vector<int> DrivePlaces(DriveShape shape, int keyframes) {
   const int part = std::max(1, keyframes / kDriveParts);
   const int circuit = part - part / 6;
@@ -36,7 +36,7 @@ inline std::vector<int> DrivePlaces(DriveShape shape, int keyframes) {
   return places;
 }
 
-// The keyframes at each place, ascending.
+// Returns the keyframes at each place, ascending.
 inline std::vector<std::vector<int>> DriveVisits(const std::vector<int>& places) {
   const int most = places.empty() ? 0 : *std::max_element(places.begin(), places.end()) + 1;
   std::vector<std::vector<int>> visits(static_cast<std::size_t>(most));

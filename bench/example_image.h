@@ -12,7 +12,7 @@
 
 namespace plumbline::bench {
 
-// 752x480: the middle image of MH_01 from the folder that PLUMBLINE_DATA names, else squares.
+// 752x480: the middle image of MH_01 from the folder PLUMBLINE_DATA, otherwise synthetic squares.
 struct ExampleImage {
   std::string name;
   GrayImage image;

@@ -15,11 +15,11 @@
 
 namespace plumbline::bench {
 
-// Where the lines of one image ought to be in another one, and which lines found there they are.
+// Expected position of a line of one image in another one, and the detected lines that match it.
 struct ExpectedLine {
-  std::optional<Segment2> place;  // nullopt: not known or not in view
-  std::vector<int> same;          // lines of the other image that are this line
-  bool unclear = false;           // a line lies there, but too little of it to say
+  std::optional<Segment2> place;  // nullopt: unknown or not in view
+  std::vector<int> same;          // lines of the other image that match
+  bool unclear = false;           // true if a line lies there, but too little of it to decide
 };
 
 struct SameLineLimits {
@@ -28,12 +28,12 @@ struct SameLineLimits {
   double overlap = 0.5;
 };
 
-// Distances of `found` across `expected` at both ends of their common part; nullopt when they do
-// not overlap, or run in opposite directions.
+// Distances of `found` across `expected` at both ends of their common part; nullopt if they do not
+// overlap, or run in opposite directions.
 std::optional<std::array<double, 2>> AcrossDistances(const Segment2& expected,
                                                      const Segment2& found);
 
-// Fills in `same` and `unclear` from the lines found.
+// Sets `same` and `unclear` from the detected lines.
 void FindSame(const std::vector<LineFeature>& found,
               const SameLineLimits& limits,
               std::vector<ExpectedLine>* lines);
@@ -44,11 +44,11 @@ struct KnownWarp {
   Eigen::Matrix3d warped_from_image;
 };
 
-// A turn, a smaller and a larger scale, a shift by parts of a pixel and two perspective views.
+// A rotation, a smaller and a larger scale, a subpixel shift and two perspective views.
 std::vector<KnownWarp> KnownWarps(int width, int height);
 
-// What a warp makes of an image: pixels by bicubic interpolation plus white noise of two grey
-// levels, so that it is not the noise that repeats. 255 in `mask` where all is real.
+// A warped image: pixels by bicubic interpolation plus white noise of two grey levels, so that the
+// noise is not repeated. 255 in `mask` if all of it is real.
 struct WarpedImage {
   GrayImage image;
   GrayImage mask;
@@ -58,8 +58,8 @@ WarpedImage WarpImage(const GrayImage& image,
                       const KnownWarp& warp,
                       std::uint64_t seed);
 
-// The lines as the warp moves them; those that do not come to lie wholly in view, or become shorter
-// than `min_length`, have no place.
+// Returns the lines moved by the warp; those not wholly in view, or shorter than `min_length`, have
+// no position.
 std::vector<ExpectedLine> WarpLines(const std::vector<LineFeature>& lines,
                                     const KnownWarp& warp,
                                     const ValidRegion& valid,

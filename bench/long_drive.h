@@ -10,11 +10,11 @@
 
 namespace plumbline {
 
-// A map as a car with a stereo camera would make it, without images: keyframes a metre apart, each
-// of them adds 90 points and 10 lines that about eight keyframes in a row show, and half of those
-// that come by later.
+// A map as of a car with a stereo camera, without images: keyframes a metre apart, each of which
+// adds 90 points and 10 lines observed by about eight successive keyframes, and by half of the
+// later ones at the same place.
 struct LongDrive {
-  Map map;  // its keyframes are some centimetres beside their true places, and so are landmarks
+  Map map;  // keyframes and landmarks have errors of some centimetres
   CameraAndPyramid imaging;
   std::vector<Rigid3> truth;  // cam_from_world, by keyframe
 };

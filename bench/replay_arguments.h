@@ -15,7 +15,7 @@
 namespace plumbline {
 
 // Values of the command lines of benchmarks that play sequences. Both throw InputError, which names
-// the option and what was expected.
+// the option and the expected value.
 inline int ParseCount(const std::string& name, const std::string& text) {
   std::size_t used = 0;
   int value = -1;

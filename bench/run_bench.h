@@ -10,8 +10,8 @@
 
 namespace plumbline::bench {
 
-// Runs a benchmark. Returns the exit status of its program: 0, or 2 where `run` throws, whose
-// message goes to the standard error behind `name`.
+// Runs a benchmark. Returns the exit status of its program: 0, or 2 if `run` throws; the message is
+// then printed to standard error after `name`.
 inline int RunBench(const char* name, const std::function<void()>& run) {
   try {
     run();

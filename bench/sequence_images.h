@@ -28,12 +28,12 @@ struct SequenceImages {
   GrayImage mask;
 };
 
-// `count` images spread over the sequence; nullopt when it is not there.
+// Returns `count` images spread over the sequence; nullopt if it is missing.
 std::optional<SequenceImages> ReadImages(const std::string& data,
                                          const Sequence& sequence,
                                          int count);
 
-// Processor time of this thread so far.
+// Returns the processor time of this thread so far.
 double CpuMilliseconds();
 
 }  // namespace plumbline::bench

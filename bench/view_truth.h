@@ -21,33 +21,33 @@ namespace plumbline::bench {
 // Metres between two cameras, cam_from_world.
 double DistanceOfCentres(const Rigid3& a, const Rigid3& b);
 
-// Where the camera of a sequence truly was, and what two of its views have in common. Beside a
-// rendered sequence lie its surfaces: rays tell what is hidden. For a recording a keyframe's own
-// landmarks stand for what it sees, and nothing is hidden.
+// True camera poses of a sequence, and the common part of two of its views. A rendered sequence has
+// its surfaces beside it: rays determine occlusion. For a recording, the visible area of a keyframe
+// is that of its own landmarks, and nothing is occluded.
 class ViewTruth {
  public:
-  // InputError where the sequence has no ground truth. rectified_from_left: of the camera that
-  // keyframes are poses of.
+  // Throws InputError if the sequence has no ground truth. rectified_from_left: of the camera of
+  // the keyframes' poses.
   ViewTruth(const Dataset& dataset,
             const RectifiedCamera& camera,
             const Eigen::Quaterniond& rectified_from_left);
 
-  // cam_from_world of the rectified camera; nullopt where the truth has no pose of that time.
+  // cam_from_world of the rectified camera; nullopt if the truth has no pose of that time.
   std::optional<Rigid3> PoseAt(std::int64_t stamp_ns) const;
 
-  // Metres per unit of the map around a keyframe: of the distances to the keyframes that share
-  // most with it, the true sum over that of the map. 1 where that is not known.
+  // Returns the metres per map unit around a keyframe: the sum of the true distances to the
+  // keyframes that share most with it, over that of the map. 1 if unknown.
   double UnitAround(const Map& map, KeyFrameId id) const;
 
-  // The share of what a keyframe shows that another pose sees too: of its view on a grid, or of
-  // its landmarks. `unit`: UnitAround the keyframe.
+  // Returns the share of a keyframe's view also visible from another pose: of its view on a grid,
+  // or of its landmarks. `unit`: UnitAround the keyframe.
   double SharedView(const KeyFrame& keyframe,
                     const Map& map,
                     const Rigid3& other_from_world,
                     double unit) const;
 
-  // Where the ray through a pixel of the rectified camera meets a surface, at the start of the
-  // sequence; nullopt for a recording, and where it meets none.
+  // Returns the intersection of the ray through a pixel of the rectified camera with the surfaces,
+  // at the start of the sequence; nullopt for a recording, and if there is none.
   std::optional<Eigen::Vector3d> SurfaceAt(std::int64_t stamp_ns, const Eigen::Vector2d& px) const;
 
  private:
