@@ -14,7 +14,7 @@
 
 namespace plumbline {
 
-// Packs by bzip2 ("bz2"), LZ4 ("lz4") or not ("none").
+// Compresses by bzip2 ("bz2"), LZ4 ("lz4") or not at all ("none").
 inline std::string PackedForBag(const std::string& bytes, const std::string& how) {
   std::string packed;
   if (how == "bz2") {
@@ -31,7 +31,7 @@ inline std::string PackedForBag(const std::string& bytes, const std::string& how
     return packed;
   }
   if (how == "lz4") {
-    // As ROS writes them: its own reader takes no other frames.
+    // Frames as written by ROS: its own reader accepts no others.
     LZ4F_preferences_t frame{};
     frame.frameInfo.blockMode = LZ4F_blockIndependent;
     frame.frameInfo.contentChecksumFlag = LZ4F_contentChecksumEnabled;
@@ -43,10 +43,10 @@ inline std::string PackedForBag(const std::string& bytes, const std::string& how
   return bytes;
 }
 
-// Writes ROS 1 bags of version 2.0 for tests, with the index that players want.
+// Writes ROS 1 bags of version 2.0 for tests, with the index required by players.
 class BagWriter {
  public:
-  // A new chunk begins when one has so many bytes.
+  // A new chunk begins after this number of bytes.
   explicit BagWriter(std::string packing = "none", std::size_t chunk_bytes = 768 * 1024)
       : packing_(std::move(packing)), chunk_bytes_(chunk_bytes) {}
 

@@ -9,9 +9,9 @@
 
 namespace plumbline {
 
-// A file or folder of the real sequences: in the folder that the environment variable
-// PLUMBLINE_DATA names, or else beside the source tree. nullopt when it is not there; skip the test
-// then. For test programs with REAL_DATA in their plumbline_tests().
+// Returns a file or folder of the real sequences: in the folder of the environment variable
+// PLUMBLINE_DATA, or else beside the source tree. nullopt if it is missing; skip the test then. For
+// test programs with REAL_DATA in their plumbline_tests().
 inline std::optional<std::filesystem::path> FindData(const std::string& name) {
   namespace fs = std::filesystem;
   const char* from_environment = std::getenv("PLUMBLINE_DATA");

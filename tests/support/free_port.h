@@ -12,8 +12,7 @@
 
 namespace plumbline {
 
-// A port of this machine that nobody listens on at the moment. Throws std::runtime_error where
-// there is none.
+// Returns a currently free port of this machine. Throws std::runtime_error if there is none.
 inline std::uint16_t FreePort() {
   const int probe = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};

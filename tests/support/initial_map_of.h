@@ -11,24 +11,24 @@
 
 namespace plumbline {
 
-// The size of the map's unit in the tests: metres of the synthetic world.
+// Scale of the map in the tests: metres of the synthetic world per map unit.
 inline constexpr double kMapUnit = 6;
 
 inline const SensorModel kOneCamera{.depth = false, .noise = 0.5};
 
-// The world as a single camera sees it.
+// The world for a single camera.
 inline SyntheticWorld MakeMonocularWorld(std::size_t points, std::size_t lines) {
   SyntheticWorld world = MakeSyntheticWorld(points, lines);
   world.camera.baseline = 0;
   return world;
 }
 
-// A pose of the synthetic world in the map's unit.
+// Converts a pose of the synthetic world to map units.
 inline Rigid3 InMapUnit(const Rigid3& cam_from_world) {
   return {cam_from_world.rotation, cam_from_world.translation / kMapUnit};
 }
 
-// What a single camera sees at a frame of the path, as an initializer gets it.
+// Returns the input of an initializer at a frame of the path, for a single camera.
 inline InitializationFrame MonocularFrame(const SyntheticWorld& world,
                                           int path_frame,
                                           SyntheticFrame* sensed = nullptr) {

@@ -9,7 +9,7 @@
 namespace plumbline {
 
 // Derivative of f: R^n -> R^m (fixed sizes) at x by central differences. With functions of size 1
-// and the default step the error is about 1e-10; five points, so that the step may be large.
+// and the default step the error is about 1e-10; five points allow a large step.
 template <class Function, int kInputs>
 auto NumericJacobian(const Function& f,
                      const Eigen::Matrix<double, kInputs, 1>& x,

@@ -19,7 +19,7 @@ inline std::string LittleEndian(std::uint64_t value, std::size_t size) {
   return bytes;
 }
 
-// How the messages of a test are written.
+// Serialization of the messages of a test.
 enum class Dialect { kRos1, kCdr, kProtobuf };
 
 // Writes the fields of ROS messages: of ROS 1, or as CDR of ROS 2.
@@ -96,7 +96,7 @@ class ProtobufFields {
   std::string body_;
 };
 
-// An image of a test, as it is or (encoding "jpeg", "png") the bytes of a file.
+// An image of a test: raw pixels or (encoding "jpeg", "png") the bytes of a file.
 struct TestImage {
   std::int64_t stamp_ns = 0;
   std::string encoding = "mono8";
@@ -144,7 +144,7 @@ inline std::string CompressedImageMessage(Dialect dialect, const TestImage& imag
   return fields.Take();
 }
 
-// The numbers of a camera as a calibration message has them.
+// Camera parameters in the form of a calibration message.
 struct TestCamera {
   std::uint32_t width = 8, height = 6;
   std::string model = "plumb_bob";
@@ -169,7 +169,7 @@ inline std::string CalibrationMessageOf(Dialect dialect, const TestCamera& camer
       }
       return bytes;
     };
-    // One field of each kind that a repeated number may have.
+    // One field of each encoding of repeated numbers.
     for (const double number : camera.d) fields.Fixed64(5, std::bit_cast<std::uint64_t>(number));
     fields.Bytes(6, packed(camera.k));
     fields.Bytes(7, packed(camera.r));

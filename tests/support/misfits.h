@@ -10,8 +10,8 @@
 
 namespace plumbline {
 
-// Observations, by keyframe, and those of them whose whitened residual is longer than 5 sigma in
-// the left or the right image, or that have none.
+// Numbers of observations, by keyframe, and of those whose whitened residual is longer than 5 sigma
+// in the left or the right image, or does not exist.
 struct ObservationCount {
   int all = 0;
   int beyond = 0;

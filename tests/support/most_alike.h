@@ -10,14 +10,14 @@
 
 namespace plumbline {
 
-// All of a map.
+// Returns all keyframes of a map.
 inline std::vector<KeyFrameId> KeyFramesOf(const Map& map) {
   std::vector<KeyFrameId> ids;
   for (const auto& [id, keyframe] : map.keyframes()) ids.push_back(id);
   return ids;
 }
 
-// What an index of the map's keyframes alone answers.
+// Returns the answer of an index of the map's keyframes alone.
 inline std::vector<KeyFrameId> MostAlikeOf(const Map& map, const Features& features) {
   constexpr std::size_t kMost = 20;
   PlaceIndex index;

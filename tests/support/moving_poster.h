@@ -37,8 +37,8 @@ class MovingPoster {
     }
   }
 
-  // Both cameras turned about the vertical against the baseline by `yaw`: the rectified camera is
-  // then not the one delivered. (The images are those of yaw 0; small angles do no harm.)
+  // Both cameras rotated about the vertical against the baseline by `yaw`: the rectified camera
+  // then differs from the delivered one. (The images are those of yaw 0; small angles do no harm.)
   static Calibration MakeCalibration(double yaw = 0) {
     Calibration calibration;
     calibration.left = Camera({.fx = kFocal,
@@ -62,18 +62,18 @@ class MovingPoster {
     frame.right = Cut(kStepPx * index + kDisparityPx);
     return frame;
   }
-  // A frame of one grey: nothing to be seen.
+  // A frame of one grey level, without features.
   static SensorFrame BlindFrame(int index) {
     return {StampNs(index), GrayImage(kWidth, kHeight, 90), GrayImage(kWidth, kHeight, 90), {}};
   }
-  // A frame of another place, which shows enough for a pose, and too little to start a map.
+  // A frame of another place, with enough features for a pose, and too few to start a map.
   static SensorFrame StrangeFrame(int index) {
     SensorFrame frame = BlindFrame(index);
     FillIn(frame.left, 200, 120, 25, 25, 200);
     FillIn(*frame.right, 200 - kDisparityPx, 120, 25, 25, 200);
     return frame;
   }
-  // A frame of a covered lens: noise that is another one in each image.
+  // A frame of a covered lens: different noise in each image.
   static SensorFrame NoiseFrame(int index) {
     SensorFrame frame = BlindFrame(index);
     Rng rng(12, "covered_lens", static_cast<std::uint64_t>(index));

@@ -18,7 +18,7 @@ Eigen::Matrix<double, kSize, 1> RandomVector(Rng& rng, double sigma = 1) {
   return v;
 }
 
-// A positive definite matrix whose eigenvalues are far apart.
+// A positive definite matrix of widely different eigenvalues.
 template <int kSize>
 Eigen::Matrix<double, kSize, kSize> RandomInformation(Rng& rng) {
   Eigen::Matrix<double, kSize, kSize> root;
@@ -33,7 +33,7 @@ inline Rigid3 RandomRigid(Rng& rng, double max_angle = 3, double translation_sig
   return {ExpSo3(angle * axis), RandomVector<3>(rng, translation_sigma)};
 }
 
-// A stereo camera like EuRoC's after rectification; fx and fy differ so that a mix-up shows.
+// A stereo camera like EuRoC's after rectification; fx and fy differ to reveal confusion.
 inline RectifiedCamera TestCamera() {
   return {
       .fx = 435, .fy = 420, .cx = 367, .cy = 252, .baseline = 0.11, .width = 752, .height = 480};

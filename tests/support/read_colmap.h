@@ -15,13 +15,13 @@
 
 namespace plumbline {
 
-// Reads COLMAP's models by what COLMAP says of its formats, sharing nothing with the writer. What
-// is not as expected throws std::runtime_error.
+// Reads COLMAP's models by COLMAP's own description of its formats, without code of the writer.
+// Throws std::runtime_error for anything unexpected.
 namespace read_colmap_detail {
 
 [[noreturn]] inline void Fail(const std::string& what) { throw std::runtime_error(what); }
 
-// The next number of a line of text, the whole word.
+// Returns the next number of a line of text, from the whole word.
 inline std::string Word(std::istringstream& line) {
   std::string word;
   if (!(line >> word)) Fail("a line ends early: " + line.str());
@@ -30,7 +30,7 @@ inline std::string Word(std::istringstream& line) {
 inline double Real(std::istringstream& line) { return std::stod(Word(line)); }
 inline std::int64_t Whole(std::istringstream& line) { return std::stoll(Word(line)); }
 
-// The lines that are not comments; in images.txt empty lines count.
+// The lines without comments; in images.txt empty lines count.
 class Lines {
  public:
   explicit Lines(const std::filesystem::path& path) : file_(path) {
@@ -197,8 +197,8 @@ inline ColmapModel ReadColmapBinary(const std::filesystem::path& folder) {
   return model;
 }
 
-// The mean distance in pixels between the views of a point and where the model's cameras see it,
-// by the model alone. Images are found by their ids.
+// Returns the mean distance in pixels between the observations of a point and its projections, by
+// the model alone. Images are found by their ids.
 inline double ReprojectionErrorOf(const ColmapModel& model, const ColmapModel::Point& point) {
   double sum = 0;
   for (const ColmapModel::View& view : point.track) {

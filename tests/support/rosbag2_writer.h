@@ -23,7 +23,7 @@ inline std::string PackedByZstd(const std::string& bytes) {
   return packed;
 }
 
-// Packs a file as `ros2 bag record --compression-mode file` does: NAME becomes NAME.zstd.
+// Packs a file like `ros2 bag record --compression-mode file`: NAME becomes NAME.zstd.
 inline void PackFile(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream bytes;
@@ -32,7 +32,7 @@ inline void PackFile(const std::filesystem::path& path) {
   std::filesystem::remove(path);
 }
 
-// Writes .db3 files as the recorders of ROS 2 do.
+// Writes .db3 files like the recorders of ROS 2.
 class Rosbag2Writer {
  public:
   enum class Version { kFoxy, kJazzy };  // the oldest and the newest tables

@@ -21,11 +21,11 @@
 namespace plumbline {
 
 // A Slurm cluster of two nodes with one processor each, all on this machine, with a munge of its
-// own: daemons in a folder, started with it and stopped with it. The environment variable
-// SLURM_CONF names its configuration meanwhile.
+// own: daemons in a folder, started and stopped with this object. SLURM_CONF names its
+// configuration meanwhile.
 class SlurmCluster {
  public:
-  // Whether what it needs is installed, and wanted: PLUMBLINE_SLURM is set, as ./test --full does.
+  // Returns true if Slurm is installed, and PLUMBLINE_SLURM is set, as by ./test --full.
   static bool IsWanted() {
     // NOLINTNEXTLINE(concurrency-mt-unsafe): tests have one thread
     if (std::getenv("PLUMBLINE_SLURM") == nullptr) return false;
@@ -66,11 +66,11 @@ class SlurmCluster {
     ::unsetenv("SLURM_CONF");  // NOLINT(concurrency-mt-unsafe)
   }
 
-  // Whether both nodes came up.
+  // Returns true if both nodes started.
   bool works() const { return works_; }
   std::string Log() const { return Contents(folder_ / "slurmctld.log"); }
 
-  // What a command of the shell prints.
+  // Returns the output of a shell command.
   std::string Say(const std::string& command) const {
     const std::string out = (folder_ / "said").string();
     // NOLINTNEXTLINE(concurrency-mt-unsafe)
@@ -78,11 +78,11 @@ class SlurmCluster {
     return Contents(out);
   }
 
-  // A node dies as a machine does: its daemon and all that runs under it at once.
+  // Kills a node like a machine failure: its daemon and all processes under it at once.
   void KillNode(int node) {
     const pid_t daemon = daemons_.at(static_cast<std::size_t>(1 + node));
     std::vector<pid_t> dead = Below(daemon);
-    // Its steps are no children of the daemon any more; they name its node.
+    // Its steps are no longer children of the daemon; they name its node.
     for (const pid_t step : StepsOf(fmt::format("n{}", node))) {
       const std::vector<pid_t> below = Below(step);
       dead.insert(dead.end(), below.begin(), below.end());
@@ -94,7 +94,7 @@ class SlurmCluster {
     daemons_.at(static_cast<std::size_t>(1 + node)) = -1;
   }
 
-  // The processes that come from one.
+  // Returns the descendants of a process.
   static std::vector<pid_t> Below(pid_t parent) {
     std::vector<pid_t> found;
     for (const auto& [process, its_parent] : Processes()) {
@@ -133,8 +133,8 @@ class SlurmCluster {
     return processes;
   }
 
-  // slurmstepd of a node of this cluster: its spool folder is open or in its command line's
-  // environment, so its environment is asked for the configuration and the node.
+  // Returns the slurmstepd processes of a node of this cluster, identified by the configuration and
+  // the node in the environment of their descendants.
   std::vector<pid_t> StepsOf(const std::string& node) const {
     std::vector<pid_t> steps;
     for (const auto& [process, parent] : Processes()) {

@@ -14,7 +14,7 @@
 
 namespace plumbline {
 
-// Tracker and mapping together on frames without images: what System does behind the features.
+// Tracker and mapping together on frames without images: the part of System after the features.
 class SyntheticRun {
  public:
   SyntheticRun(const SyntheticWorld& world, const SlamOptions& options = InlineOptions())
@@ -31,7 +31,7 @@ class SyntheticRun {
     return options;
   }
 
-  // The next frame.
+  // Tracks the next frame.
   TrackingResult Step(const SyntheticFrame& sensed) {
     const std::int64_t frame = next_++;
     const auto snapshot = mapping_.SnapshotFor(frame);
@@ -52,7 +52,7 @@ class SyntheticRun {
     mapping_.Submit(next_, start);
     return tracker_.StartFrom(*mapping_.SnapshotFor(next_++), velocity);
   }
-  // A frame in which nothing is to be seen.
+  // Tracks a frame without features.
   TrackingResult StepBlind() { return Step({IndexFeatures(world_.camera, {}), {}, {}}); }
 
   void Finish() { mapping_.Finish(); }

@@ -18,8 +18,8 @@
 
 namespace plumbline {
 
-// A world of points and straight lines with made-up descriptors, seen without images: the features
-// of a frame are the projections of what is in view, with noise.
+// A world of points and straight lines with made-up descriptors, observed without images: the
+// features of a frame are the noisy projections of the visible landmarks.
 struct SyntheticWorld {
   struct Point {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -73,12 +73,12 @@ struct SensorModel {
   bool points = true;
   bool lines = true;
   bool depth = true;
-  double noise = 1;      // multiplies all measurement errors; the sigmas stay as they are
+  double noise = 1;      // multiplies all measurement errors; the sigmas do not change
   int flipped_bits = 8;  // of a descriptor, at most
   double missed = 0.05;  // share of the landmarks in view that are not detected
 };
 
-// A frame's features and which landmark of the world each of them is.
+// The features of a frame, and the landmark of the world of each.
 struct SyntheticFrame {
   std::shared_ptr<const FrameFeatures> indexed;
   std::vector<std::size_t> point_truth;
@@ -122,7 +122,7 @@ inline Segment2 Noisy(const Segment2& segment, double sigma, Rng& rng) {
   return {segment.start + RandomVector<2>(rng, sigma), segment.end + RandomVector<2>(rng, sigma)};
 }
 
-// The detected piece leaves out up to a tenth at each end, in each image another one.
+// Detected pieces lack up to a tenth at each end, differently in each image.
 inline Segment3 Shortened(const Segment3& segment, Rng& rng) {
   const Eigen::Vector3d along = segment.end - segment.start;
   return {segment.start + rng.Uniform(0, 0.1) * along, segment.end - rng.Uniform(0, 0.1) * along};
@@ -157,7 +157,7 @@ inline void AddLine(const SyntheticWorld& world,
 
 }  // namespace synthetic_detail
 
-// What the camera sees at a pose. The same rng state gives the same features.
+// Returns the features at a pose. The same rng state gives the same features.
 inline SyntheticFrame Sense(const SyntheticWorld& world,
                             const Rigid3& cam_from_world,
                             const SensorModel& sensor,
@@ -179,7 +179,7 @@ inline SyntheticFrame Sense(const SyntheticWorld& world,
   return frame;
 }
 
-// A frame of the tracker made from it, without matches.
+// Makes a frame of the tracker, without matches.
 inline Frame MakeFrame(FrameId id, const Rigid3& cam_from_world, const SyntheticFrame& sensed) {
   Frame frame;
   frame.id = id;

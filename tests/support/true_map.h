@@ -13,8 +13,8 @@
 
 namespace plumbline {
 
-// A map of a synthetic world in which keyframe k stands at the given pose and shows each landmark
-// that it sees, all of them at their true places.
+// A map of a synthetic world in which keyframe k has the given pose and observes each visible
+// landmark, all of them at their true positions.
 struct TrueMap {
   Map map;
   std::vector<SyntheticFrame> sensed;       // by keyframe
@@ -32,7 +32,7 @@ inline KeyFrameId AddKeyFrameTo(Map& map,
   return id;
 }
 
-// The largest distance of a keyframe from its true place; `truth` by keyframe, cam_from_world.
+// Largest distance of a keyframe from its true position; `truth` by keyframe, cam_from_world.
 inline double WorstPose(const Map& map, const std::vector<Rigid3>& truth) {
   double worst = 0;
   for (const auto& [id, keyframe] : map.keyframes()) {
@@ -44,7 +44,7 @@ inline double WorstPose(const Map& map, const std::vector<Rigid3>& truth) {
 
 namespace true_map_detail {
 
-// For each landmark of the world the keyframes that see it.
+// Returns the keyframes that see each landmark of the world.
 inline std::map<std::size_t, Observations> Gather(const std::vector<SyntheticFrame>& sensed,
                                                   std::vector<std::size_t> SyntheticFrame::*truth) {
   std::map<std::size_t, Observations> all;

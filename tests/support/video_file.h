@@ -21,16 +21,16 @@ extern "C" {
 
 namespace plumbline {
 
-// A video as FFmpeg's libraries write it, each of whose frames has one grey level.
+// A video written by FFmpeg's libraries, each of whose frames has one grey level.
 struct VideoFile {
   std::string encoder = "libx264";
   int width = 160, height = 120;
   int b_frames = 0;
   int key_every = 250;
   AVRational tick = {1, 25};
-  std::vector<std::int64_t> times;  // of the frames, in ticks, as they are shown
+  std::vector<std::int64_t> times;  // of the frames, in ticks, in display order
   std::vector<int> levels;          // 16 to 235
-  // In ticks, in place of the times that the encoder gives the packets: containers that are wrong.
+  // In ticks, replacing the times of the encoder's packets: a faulty container.
   std::vector<std::int64_t> packet_times = {};
   std::size_t packets_cut = 0;               // packets that are missing at the start
   std::array<std::int32_t, 4> display = {};  // a, b, c, d of the display matrix; 0: none
@@ -90,7 +90,7 @@ inline AVCodecContext* VideoFile::OpenEncoder(bool global_header) const {
   codec->gop_size = key_every;
   codec->thread_count = 1;
   if (global_header) codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
-  // Every frame between the others is to be a B frame, and no other key frames are to come.
+  // Every frame between the others becomes a B frame, without further key frames.
   AVDictionary* options = nullptr;
   if (encoder == "libx264") {
     av_dict_set(&options, "x264-params", "b-adapt=0:scenecut=0:log=-1:open-gop=0", 0);

@@ -20,7 +20,7 @@
 
 namespace plumbline {
 
-// A connection to a port of this machine that says whatever it is told to.
+// A connection to a port of this machine that sends arbitrary bytes.
 class TestSocket {
  public:
   explicit TestSocket(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
@@ -41,9 +41,9 @@ class TestSocket {
   void Close() {
     if (socket_ >= 0) ::close(std::exchange(socket_, -1));
   }
-  // Ends both directions; who waits in another thread is told.
+  // Ends both directions; a thread that waits is woken.
   void Shutdown() const { ::shutdown(socket_, SHUT_RDWR); }
-  // False where nobody takes it any more.
+  // Returns false if the other side is gone.
   bool Send(std::string_view bytes) {
     while (!bytes.empty()) {
       const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -52,7 +52,7 @@ class TestSocket {
     }
     return true;
   }
-  // So many bytes; nullopt where they do not come within ten seconds, or will not come.
+  // Returns the next `count` bytes; nullopt if they do not come within ten seconds, or never will.
   std::optional<std::string> Take(std::size_t count) {
     while (read_.size() < count) {
       if (!ReadMore()) return std::nullopt;
@@ -61,7 +61,7 @@ class TestSocket {
     read_.erase(0, count);
     return taken;
   }
-  // Everything up to a mark and the mark, or until the other side closes.
+  // Returns everything up to a mark and the mark, or until the other side closes.
   std::string TakeUntil(std::string_view mark) {
     std::size_t at = std::string::npos;
     while ((at = read_.find(mark)) == std::string::npos) {
@@ -93,15 +93,15 @@ class TestSocket {
   bool closed_ = false;
 };
 
-// What a browser says when it opens a WebSocket.
+// Opening request of a browser for a WebSocket.
 struct Handshake {
   std::string target = "/";
   std::string host = "127.0.0.1";
-  std::string origin;  // none where it is empty
+  std::string origin;  // none if empty
   std::string protocols = "foxglove.websocket.v1";
 };
 
-// A WebSocket client written by hand, to be independent of the library that serves.
+// A hand-written WebSocket client, independent of the server's library.
 class WebSocketClient {
  public:
   struct Message {
@@ -126,7 +126,8 @@ class WebSocketClient {
   void SendText(std::string_view text) { SendFrame(1, text); }
   void SendBinary(std::string_view bytes) { SendFrame(2, bytes); }
 
-  // The next text or binary message; nullopt when the server closes, or says nothing for long.
+  // Returns the next text or binary message; nullopt if the server closes, or sends nothing for
+  // long.
   std::optional<Message> Receive() {
     Message message;
     while (true) {
@@ -155,7 +156,7 @@ class WebSocketClient {
   }
 
  private:
-  // Masked, as clients must, by a mask that changes nothing.
+  // Masked, as required of clients, by a mask that changes nothing.
   void SendFrame(unsigned op, std::string_view bytes) {
     std::string frame(1, static_cast<char>(128U | op));
     if (bytes.size() < 126) {
