@@ -13,13 +13,13 @@
 
 namespace plumbline {
 
-// Segments by place. Keeps a reference to them.
+// Spatial index of segments. Keeps a reference to them.
 class SegmentGrid {
  public:
   explicit SegmentGrid(std::span<const Segment3> segments);
 
-  // Indices, ascending, of the segments no further than `radius` (metres, at most 0.1) from a
-  // point. Cost: some 0.2 us and what is near.
+  // Returns the indices, ascending, of the segments no further than `radius` (metres, at most 0.1)
+  // from a point. Cost: some 0.2 us plus the near segments.
   std::vector<int> Near(const Eigen::Vector3d& point, double radius) const;
 
  private:
@@ -27,13 +27,13 @@ class SegmentGrid {
   std::unordered_map<std::uint64_t, std::vector<int>> cells_;
 };
 
-// Joins segments that lie on one line, at most `across` metres off, and overlap or leave gaps of at
-// most `across`: each chain becomes one segment on the line of its longest. Order: that of the
-// first segment of each chain.
+// Joins collinear segments, at most `across` metres off, that overlap or leave gaps of at most
+// `across`: each chain becomes one segment on the line of its longest. Order: that of the first
+// segment of each chain.
 std::vector<Segment3> JoinCollinear(std::span<const Segment3> segments, double across);
 
-// The parts of `segment` longer than `min_length` (metres) that are not covered by segments along
-// it, at most `across` metres off.
+// Returns the parts of `segment` longer than `min_length` (metres) not covered by collinear
+// segments, at most `across` metres off.
 std::vector<Segment3> Uncovered(const Segment3& segment,
                                 std::span<const Segment3> covers,
                                 const SegmentGrid& grid_of_covers,

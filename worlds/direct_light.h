@@ -13,11 +13,11 @@
 
 namespace plumbline {
 
-// A grid of points from corner to corner of a surface, a little off it and its rim, which other
-// bodies touch.
+// A grid of points from corner to corner of a surface, slightly off it and inside its rim, because
+// other bodies touch both.
 class SurfaceGrid {
  public:
-  // cell: size of the grid's cells, metres, at most.
+  // cell: largest size of the grid's cells, metres.
   SurfaceGrid(const Surface& surface, double cell);
 
   int columns() const { return columns_; }
@@ -32,11 +32,11 @@ class SurfaceGrid {
   double margin_a_, margin_b_;  // shares of the sides
 };
 
-// The light that the lamps throw on a surface past all that stands still, at the points of its
+// Returns the light of the lamps on a surface, shadowed by static objects, at the points of its
 // grid; a grid of values for each source.
 //
-// How: lamp by lamp, at every fourth point of the grid; where these do not lie on a line, as at the
-// borders of shadows, at each point, elsewhere linear in between.
+// Method: lamp by lamp, at every fourth point of the grid; where these are not linear, for example
+// at the borders of shadows, at each point, elsewhere by linear interpolation.
 //   sources  of each lamp, in [0, source_count)
 std::vector<Image<float>> DirectLight(const SurfaceGrid& grid,
                                       std::span<const Lamp> lamps,

@@ -30,12 +30,12 @@ struct ImuSample {
 struct ImuRecording {
   std::vector<ImuSample> ideal;
   std::vector<ImuSample> noisy;   // ideal + bias + noise
-  std::vector<ImuSample> biases;  // what was added slowly
+  std::vector<ImuSample> biases;  // slowly varying part of the errors
 };
 
-// What an inertial sensor in the body feels on a path, from 0 to `duration` seconds: rates and
-// accelerations by central differences over 2 ms, gravity 9.81 m/s^2 down the world's z axis.
-// `noise` multiplies all errors.
+// Returns the measurements of an inertial sensor in the body on a path, from 0 to `duration`
+// seconds: rates and accelerations by central differences over 2 ms, gravity 9.81 m/s^2 down the
+// world's z axis. `noise` multiplies all errors.
 ImuRecording RecordImu(const std::function<Rigid3(double)>& world_from_body,
                        double duration,
                        const ImuModel& model,

@@ -9,29 +9,30 @@
 
 namespace plumbline {
 
-constexpr float kLampLift = 0.001F;  // metres off a surface, not to be shadowed by itself
+constexpr float kLampLift = 0.001F;  // metres off a surface, to avoid shadows by itself
 
-// A point on a lamp, and the light that a white surface facing `normal` at `point` gets from the
-// whole lamp if it were gathered there and nothing stood between.
+// A point on a lamp, and the light on a white surface facing `normal` at `point` if the whole lamp
+// were concentrated there and unoccluded.
 struct LampPoint {
   Eigen::Vector3d position;
   double light;
 };
 
-// How many points stand for a rectangular lamp in half shadow. No two are in line with a side of
+// Number of sample points of a rectangular lamp in half shadow. No two are in line with a side of
 // the lamp, so that the edge of a body covers them one by one.
 constexpr int kLampPoints = 32;
 
-// The point of that number in [0, kLampPoints); the first few are spread over the lamp as well.
+// Returns sample point `number` in [0, kLampPoints); the first few are spread over the lamp as
+// well.
 Eigen::Vector3d PlaceOn(const Lamp& lamp, int number);
 LampPoint LightFrom(const Lamp& lamp,
                     int number,
                     const Eigen::Vector3d& point,
                     const Eigen::Vector3d& normal);
 
-// The light that a white surface facing `normal` at `point` gets from a lamp past all that stands
-// still: each part of the lamp weighted by what it gives. 5 rays where they agree, else kLampPoints
-// more.
+// Returns the light of a lamp on a white surface facing `normal` at `point`, shadowed by static
+// objects: each part of the lamp weighted by its contribution. 5 rays if they agree, otherwise
+// kLampPoints more.
 double LightOfLamp(const Lamp& lamp,
                    const Eigen::Vector3d& point,
                    const Eigen::Vector3d& normal,

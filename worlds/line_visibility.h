@@ -16,12 +16,12 @@
 
 namespace plumbline {
 
-// Whether nothing of the world lies between two points when a frame is taken. Called from several
+// Returns true if nothing of the world lies between two points in a frame. Called from several
 // threads.
 using SightTest =
     std::function<bool(const Eigen::Vector3d& from, const Eigen::Vector3d& to, std::size_t frame)>;
 
-// Where the camera is in a frame.
+// Camera pose of a frame.
 struct TimedView {
   double time = 0;  // seconds
   Rigid3 world_from_camera;
@@ -31,19 +31,19 @@ struct VisibilityLimits {
   double min_visible_px = 40;  // longest piece without interruption, pixels of the image
 };
 
-// Tells in which frames a line is seen.
+// Determines the frames in which a line is visible.
 //
-// A line is seen in a frame when a piece of it, at least min_visible_px long in the image (lens
-// distortion included), lies inside the image and is hidden by nothing: rays go to samples at most
-// 8 px apart, to points 1 mm before the line, so that the surface it lies on does not hide it; the
-// ends of pieces are then found by bisection. What is narrower than 8 px may hide nothing. Blur,
-// noise and contrast do not count.
+// A line is visible in a frame if a piece of it, at least min_visible_px long in the image (lens
+// distortion included), lies inside the image and is not occluded: rays go to samples at most 8 px
+// apart, to points 1 mm in front of the line, so that its own surface does not occlude it; the ends
+// of pieces are then found by bisection. Objects narrower than 8 px may be missed. Blur, noise and
+// contrast do not count.
 //
-// Cost: some 30 ns for a line out of view, about 6 rays for one in view, and all samples of the
-// stretches that have never been seen: 12 000 lines in 2000 frames take 4 s on one core.
+// Cost: some 30 ns for a line out of view, about 6 rays for a line in view, and all samples of the
+// stretches never seen so far: 12 000 lines in 2000 frames take 4 s on one core.
 class LineVisibility {
  public:
-  // Keeps references to what it is given.
+  // Keeps references to its arguments.
   LineVisibility(const Camera& camera,
                  std::span<const TimedView> views,
                  const SightTest& sees,
@@ -52,9 +52,9 @@ class LineVisibility {
   LineVisibility(const LineVisibility&) = delete;
   LineVisibility& operator=(const LineVisibility&) = delete;
 
-  // The line cut down to the shortest stretch that holds all pieces seen in some frame (to 5 mm),
-  // with the frames that see it; nullopt when none does. `present`, where not empty, tells for each
-  // frame whether the line is there at all.
+  // Returns the line cut down to the shortest stretch with all pieces visible in some frame (to 5
+  // mm), and the frames that see it; nullopt if none does. `present`, if not empty, is true for
+  // each frame in which the line exists.
   std::optional<TrueLine> Trim(const TrueLine& line, const std::vector<bool>& present = {}) const;
 
  private:

@@ -9,7 +9,7 @@
 
 namespace plumbline {
 
-// Small marks that several materials share.
+// Small marks common to several materials.
 
 inline double CellIndex(double x, double size) { return std::floor(x / size); }
 
@@ -17,8 +17,8 @@ inline double CellValue(double i, double j, std::uint64_t seed) {
   return UnitFromHash(HashCell(static_cast<std::int64_t>(i), static_cast<std::int64_t>(j), seed));
 }
 
-// Dark or bright dots of all strengths scattered with one candidate per square of the given size;
-// -1 to 1, falling off over the outer fifth of a dot.
+// Dark or bright dots of all strengths with one candidate per square of the given size; -1 to 1,
+// falling off over the outer fifth of a dot.
 double Specks(double u, double v, double size, double share, std::uint64_t seed);
 
 // Rows of "words" in a column of the given width: marks of random width; some rows end early, some
@@ -28,8 +28,8 @@ double TextInk(double u, double v, double line, double width, std::uint64_t seed
 // Stripes along the first coordinate with fibres and knots, as in sawn wood; mean about 0.
 double WoodGrain(double along, double across, std::uint64_t seed);
 
-// What years do to any surface: broad shades and dirt at all scales down to millimetres; mean about
-// 0, within about +-0.5 times `strength`.
+// Ageing of any surface: broad shades and dirt at all scales down to millimetres; mean about 0,
+// within about +-0.5 times `strength`.
 double Weathering(double u, double v, double strength, std::uint64_t seed);
 
 }  // namespace plumbline

@@ -9,7 +9,7 @@
 
 namespace plumbline {
 
-// What a surface looks like. All are computed from noise; there are no image files.
+// Appearance of a surface. All are computed from noise; there are no image files.
 enum class Material {
   kPaint,      // nearly plain, faint scratches
   kPlaster,    // uneven wall with stains, pits and scuffs
@@ -53,18 +53,17 @@ struct TextureRecipe {
   Material material = Material::kPaint;
   double tone = 0.5;        // mean reflectance, 0 black to 1 white
   std::uint64_t seed = 0;   // two surfaces of one material differ by their seed
-  double corner_shade = 0;  // how much darker the rim is, 0 to 1 (walls meeting in corners)
+  double corner_shade = 0;  // darkening of the rim, 0 to 1 (walls meeting in corners)
 
-  // Where the surface is cut out of a larger sheet, so that a wall goes on beside a door: the
+  // Set if the surface is cut out of a larger sheet, so that a wall continues beside a door: the
   // corner of the surface on the sheet and the size of the sheet, metres. A size of 0: the surface
-  // is all.
+  // is the whole sheet.
   double sheet_u = 0, sheet_v = 0;
   double sheet_width = 0, sheet_height = 0;
 };
 
-// Reflectance in [0, 1] at (u, v) metres from the corner of a surface of the given size (of its
-// sheet where it is cut out of one). Works out the layout each time: for many points of a surface
-// there is SurfacePattern.
+// Reflectance in [0, 1] at (u, v) metres from the corner of a surface of the given size (or of its
+// sheet). Computes the layout each time: for many points of a surface use SurfacePattern.
 double EvaluateTexture(
     const TextureRecipe& recipe, double u, double v, double width, double height);
 

@@ -7,8 +7,8 @@
 
 namespace plumbline {
 
-// Random numbers that are functions of their place instead of steps of a stream: the same in
-// whatever order, and by however many threads, the places are visited.
+// Random numbers as functions of position instead of steps of a stream: independent of the order
+// and the number of threads.
 
 // Mixes 64 bits thoroughly (the finalizer of SplitMix64).
 inline std::uint64_t MixBits(std::uint64_t x) {
@@ -53,7 +53,7 @@ inline double ValueNoise(double x, double y, std::uint64_t seed) {
 }
 
 // Sum of `octaves` value noises, each at twice the frequency and `gain` times the strength of the
-// one before: gain 0.5 is smooth clouds, gain near 1 is grainy at all scales. Within +-1.
+// previous one: gain 0.5 is smooth clouds, gain near 1 is grainy at all scales. Within +-1.
 inline double FractalNoise(double x, double y, int octaves, double gain, std::uint64_t seed) {
   double sum = 0, weight = 1, total = 0;
   for (int i = 0; i < octaves; ++i) {

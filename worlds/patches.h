@@ -24,8 +24,8 @@ struct Patch {
   Eigen::AlignedBox2d box;
   double value = 0.5;
   bool ellipse = false;
-  bool stain = false;  // multiplies what is below by `value` instead of hiding it
-  double shade = 0;    // strength of its own soft shading, as in a photograph
+  bool stain = false;  // true: multiplies the colour below by `value` instead of hiding it
+  double shade = 0;    // strength of its own soft shading, like that of a photograph
   std::uint64_t seed = 0;
   std::optional<PatchText> text = std::nullopt;
 };
@@ -35,15 +35,15 @@ inline Eigen::AlignedBox2d BoxOf(double u0, double v0, double u1, double v1) {
   return {Eigen::Vector2d(u0, v0), Eigen::Vector2d(u1, v1)};
 }
 
-// Reflectance of patches laid over each other, the last on top, on a ground; edges are averaged
+// Reflectance of patches on top of each other, the last on top, on a ground; edges are averaged
 // over a cell.
 double PaintPatches(const std::vector<Patch>& patches,
                     const Eigen::Vector2d& at,
                     double ground,
                     const Eigen::Vector2d& cell);
 
-// Appends the sides of the rectangles as far as no later patch hides them, in pieces between the
-// places where the outline of another patch crosses.
+// Appends the sides of the rectangles not hidden by later patches, in pieces between the crossings
+// with outlines of other patches.
 void AppendPatchEdges(const std::vector<Patch>& patches, std::vector<Segment2>* edges);
 
 }  // namespace plumbline

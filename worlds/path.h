@@ -12,22 +12,22 @@
 
 namespace plumbline {
 
-// Where a camera (x right, y down, z forward) is in the world (z up) at any time in seconds: at
-// least twice continuously differentiable, defined also a little before 0 and after `duration`.
+// Pose of a camera (x right, y down, z forward) in the world (z up) at any time in seconds: at
+// least twice continuously differentiable, defined also slightly before 0 and after `duration`.
 struct CameraPath {
   double duration = 0;  // seconds
   std::function<Rigid3(double time)> world_from_camera;
 };
 
 // Attitude of a camera looking along `yaw` (radians, from world x towards y) and down by `pitch`,
-// turned clockwise about its own axis by `roll`.
+// rotated clockwise about its own axis by `roll`.
 Eigen::Quaterniond CameraAttitude(double yaw, double pitch, double roll);
 
-// A place to pass, and where to look there.
+// A position on the path, and the viewing direction there.
 struct Waypoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world, metres
   double yaw = 0, pitch = 0, roll = 0;                 // radians as in CameraAttitude
-  double pause = 0;                                    // seconds to stay there
+  double pause = 0;                                    // stop, in seconds
 };
 
 struct Pace {
@@ -35,15 +35,15 @@ struct Pace {
   double turn_rate = 1;  // rad/s, highest change of yaw, pitch or roll
 };
 
-// A path along waypoints: each piece takes the time that distance and turn need at the pace, and a
-// cubic B-spline through time (uniform knots `knot_s` apart) rounds what would be corners, so that
-// velocity and acceleration are continuous. Corners are cut by about speed * knot_s / 2. Yaw is
-// taken the short way round from waypoint to waypoint; the camera starts and ends at rest.
+// A path along waypoints: each piece takes the time of its distance and rotation at the pace, and a
+// cubic B-spline through time (uniform knots `knot_s` apart) rounds the corners, so that velocity
+// and acceleration are continuous. Corners are cut by about speed * knot_s / 2. Yaw is taken the
+// short way round from waypoint to waypoint; the camera starts and ends at rest.
 CameraPath SplinePath(const std::vector<Waypoint>& waypoints,
                       const Pace& pace,
                       double knot_s = 0.5);
 
-// Who carries the camera: small motions on top of the path.
+// Carrier of the camera, which adds small motions to the path.
 enum class Carrier {
   kTripod,  // none
   kHand,    // steps, sway, a wandering gaze
@@ -55,7 +55,7 @@ enum class Carrier {
 // Adds the motions of a carrier: sums of sines whose phases come from the seed.
 CameraPath WithCarrier(CameraPath path, Carrier carrier, std::uint64_t seed);
 
-// The same path run `factor` times as fast.
+// The same path, `factor` times as fast.
 CameraPath Faster(CameraPath path, double factor);
 
 // A camera carried by hand around an ellipse, looking outward: steps, sway and a wandering gaze on

@@ -15,8 +15,7 @@
 
 namespace plumbline {
 
-// What a pattern is made from: the recipe of a whole sheet and the size of the cells it is sampled
-// with.
+// Input of a pattern: the recipe of a whole sheet and the size of the sampled cells.
 struct PatternFrame {
   double tone = 0.5;
   std::uint64_t seed = 0;
@@ -26,8 +25,8 @@ struct PatternFrame {
 
 // The reflectance of a material and the straight edges in it, from one layout.
 //
-// Edges are averaged over the cell, so that a step stays where it is, to a small part of a cell,
-// wherever the cells lie; everything else is taken at the point.
+// Edges are averaged over the cell, so that the position of a step does not depend on the cells, to
+// a small part of a cell; everything else is evaluated at the point.
 class Pattern {
  public:
   explicit Pattern(const PatternFrame& frame) : frame_(frame) {}
@@ -38,9 +37,8 @@ class Pattern {
   // Reflectance at metres from the corner of the sheet, not yet limited to [0, 1].
   virtual double At(double u, double v) const = 0;
 
-  // Appends the straight edges that the layout draws within the window, in pieces that each have
-  // the same on both sides from end to end, following each other along their line. Whether
-  // there is any contrast is not asked.
+  // Appends the straight edges of the layout within the window, in successive pieces that are each
+  // uniform on both sides from end to end, whether or not they have contrast.
   virtual void AppendEdges(const Eigen::AlignedBox2d& window, std::vector<Segment2>* edges) const;
 
  protected:
@@ -49,7 +47,8 @@ class Pattern {
 
 std::unique_ptr<const Pattern> MakePattern(Material material, const PatternFrame& frame);
 
-// One function for each family of materials; MakePattern asks them in turn, nullptr: not of mine.
+// One function for each family of materials, called in turn by MakePattern; nullptr: another
+// family.
 std::unique_ptr<const Pattern> MakeGrownPattern(Material material, const PatternFrame& frame);
 std::unique_ptr<const Pattern> MakeLaidPattern(Material material, const PatternFrame& frame);
 std::unique_ptr<const Pattern> MakePrintedPattern(Material material, const PatternFrame& frame);
@@ -57,7 +56,7 @@ std::unique_ptr<const Pattern> MakePrintedPattern(Material material, const Patte
 // Share of a cell of size `cell` around x that lies within [low, high].
 double Covered(double x, double low, double high, double cell);
 
-// The part of a segment inside a box; nullopt where there is none.
+// The part of a segment inside a box; nullopt if there is none.
 std::optional<Segment2> ClipToBox(const Segment2& segment, const Eigen::AlignedBox2d& box);
 
 }  // namespace plumbline

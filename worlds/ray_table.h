@@ -11,11 +11,11 @@
 
 namespace plumbline {
 
-// The ray of every pixel of a camera on the plane z = 1, and how it changes across the pixel: the
+// The ray of every pixel of a camera on the plane z = 1, and its derivative across the pixel: the
 // lens model is then evaluated once for a sequence instead of once for a sample.
 class RayTable {
  public:
-  // Throws InputError when some pixel of the camera has no ray (distortion not invertible there).
+  // Throws InputError if a pixel of the camera has no ray (distortion not invertible there).
   explicit RayTable(const Camera& camera);
 
   struct Entry {

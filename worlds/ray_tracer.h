@@ -12,20 +12,19 @@
 
 namespace plumbline {
 
-// Finds what rays meet in a scene (Embree). Calls may come from several threads; results depend on
-// nothing but the arguments.
+// Intersects rays with a scene (Embree). Thread-safe; results depend only on the arguments.
 class RayTracer {
  public:
   static constexpr int kPacket = 8;
   static constexpr unsigned kNothing = ~0U;
 
-  // Four balls, compared with a ray at once.
+  // Four balls, tested against a ray at once.
   struct FourBalls {
     Eigen::Array4f x = Eigen::Array4f::Zero(), y = x, z = x;           // centres; world, metres
-    Eigen::Array4f squared_radius = Eigen::Array4f::Constant(-1e30F);  // as it is: met by nothing
+    Eigen::Array4f squared_radius = Eigen::Array4f::Constant(-1e30F);  // default: hit by no ray
   };
 
-  // Where the bodies of the scene are at some time.
+  // Poses of the bodies of the scene at a time.
   struct Moment {
     struct Pose {
       Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();  // body_from_world
@@ -36,7 +35,7 @@ class RayTracer {
     std::vector<FourBalls> balls;
   };
 
-  // Some rays from one point.
+  // Several rays from one point.
   struct Rays {
     Eigen::Vector3f origin = Eigen::Vector3f::Zero();  // world, metres
     std::array<Eigen::Vector3f, kPacket> directions;   // world, any length
@@ -50,13 +49,13 @@ class RayTracer {
 
   Moment At(double time) const;
 
-  // The first surface (index in Scene::surfaces) that each ray meets; kNothing for none.
+  // Sets the first surface (index in Scene::surfaces) hit by each ray; kNothing for none.
   void Trace(const Rays& rays, const Moment& moment, unsigned* hits) const;
 
-  // Whether nothing that stands still is between two points, both taken a little inwards
-  // (`margin`, metres).
+  // Returns true if no static surface is between two points, both moved slightly inwards (`margin`,
+  // metres).
   bool StillSees(const Eigen::Vector3f& from, const Eigen::Vector3f& to, float margin) const;
-  // Whether no body is between two points.
+  // Returns true if no body is between two points.
   bool BodiesLetPass(const Eigen::Vector3f& from,
                      const Eigen::Vector3f& to,
                      float margin,

@@ -15,14 +15,14 @@
 
 namespace plumbline {
 
-// What an ideal sensor would see.
+// Image of an ideal sensor.
 struct Rendering {
   Image<float> light;  // 255 is white at exposure 1; before response, noise and rounding
-  DepthImage depth;    // metres along z at the pixel centres; 0 where nothing is hit
+  DepthImage depth;    // metres along z at the pixel centres; 0 without a hit
 };
 
-// When the rows of an image see light. Row y is open for `exposure` seconds around
-// centre + ((y + 0.5) / height - 0.5) * readout.
+// Exposure times of the rows of an image. Row y is open for `exposure` seconds around centre + ((y
+// + 0.5) / height - 0.5) * readout.
 struct Shutter {
   double centre = 0;    // seconds
   double exposure = 0;  // seconds; 0: an instant
@@ -41,17 +41,16 @@ struct RendererOptions {
 // Ray tracer for worlds of textured rectangles under lamps, diffuse surfaces without
 // interreflection.
 //
-// An instant: one ray finds the surface at each pixel centre. Where all nine centres around agree,
-// the pixel is the mean of `samples` texture samples; elsewhere, that is at edges, at least 16 rays
-// are traced. A body that covers no pixel centre at all may be missed.
-// An open shutter: each pixel is the mean of rays at different places in it and times; there are as
-// many as the image moves pixels meanwhile, at least `time_samples` and at most 64, so that what is
-// blurred has no steps. (How far it moves is judged from the camera's motion past what is nearest.)
-// Light on what stands still is baked (LightMaps); shadows of bodies, and light on them, are
-// traced.
+// An instant: one ray finds the surface at each pixel centre. If all nine centres around agree, the
+// pixel is the mean of `samples` texture samples; otherwise, at edges, at least 16 rays are traced.
+// A body that covers no pixel centre at all may be missed.
+// An open shutter: each pixel is the mean of rays at different positions in it and times; their
+// number is the image motion in pixels, at least `time_samples` and at most 64, so that blur has no
+// steps. (The motion is estimated from the camera's motion past the nearest surface.) Light on
+// static surfaces is baked (LightMaps); shadows of bodies, and light on them, are traced.
 //
-// Render may be called from several threads; what it returns depends on nothing but its arguments.
-// Cost at 752 x 480 on one core: 0.1 s for an instant, about 0.08 s for each time sample.
+// Render may be called from several threads; its result depends only on its arguments. Cost at 752
+// x 480 on one core: 0.1 s for an instant, about 0.08 s for each time sample.
 class Renderer {
  public:
   using PoseAt = std::function<Rigid3(double time)>;  // world_from_camera
@@ -63,11 +62,11 @@ class Renderer {
 
   // The image and, at the middle of each row's exposure, the depth.
   Rendering Render(const RayTable& rays, const PoseAt& pose_at, const Shutter& shutter) const;
-  // A still picture.
+  // An image without exposure time.
   Rendering Render(const RayTable& rays, const Rigid3& world_from_camera) const;
 
-  // Whether nothing is between two points of the world at a time, both taken `margin` metres
-  // inwards.
+  // Returns true if nothing is between two points of the world at a time, both moved `margin`
+  // metres inwards.
   bool Sees(const Eigen::Vector3d& from,
             const Eigen::Vector3d& to,
             double margin,

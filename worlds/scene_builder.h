@@ -13,7 +13,7 @@
 
 namespace plumbline {
 
-// A box standing at a place, turned about the vertical.
+// A box at a place, rotated about the vertical.
 struct BoxShape {
   Eigen::Vector3d base = Eigen::Vector3d::Zero();  // centre of the bottom face
   Eigen::Vector3d size = Eigen::Vector3d::Ones();  // along its own x, y and up
@@ -28,8 +28,8 @@ struct Opening {
   double height = 2;  // metres
 };
 
-// A wall from one point of the floor to another. It is as thick as `thickness` and symmetric about
-// the line from start to end; its holes go through it.
+// A wall from one point of the floor to another. It has the thickness `thickness` and is symmetric
+// about the line from start to end; its holes go through it.
 struct WallShape {
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d end = Eigen::Vector3d::UnitX();  // at the height of start
@@ -37,26 +37,26 @@ struct WallShape {
   double thickness = 0.1;
 };
 
-// The section of a round thing: a regular polygon.
+// Cross-section of a round object: a regular polygon.
 struct PrismShape {
   double radius = 0.1;  // to its corners, metres
   int sides = 6;        // even
-  double lid = 0;       // how far its ends lie inside its rim, metres
+  double lid = 0;       // depth of its ends inside its rim, metres
 };
 
-// What a panel looks like.
+// Appearance of a panel.
 struct PanelLook {
   Material material = Material::kPaint;
   double tone = 0.5;
-  bool edges = true;  // whether its rim is four edges of the world
+  bool edges = true;  // true if its rim adds four edges to the world
   double glow = 0;
   int circuit = 0;
 };
 
-// Puts bodies together and keeps each surface's texture its own.
+// Builds scenes of bodies, each surface with its own texture.
 //
-// What is added between BeginBody and EndBody belongs to a moving body and is given in its frame;
-// it has no edges in Scene::edges.
+// Everything added between BeginBody and EndBody belongs to a moving body, is given in its frame,
+// and has no edges in Scene::edges.
 class SceneBuilder {
  public:
   explicit SceneBuilder(std::uint64_t seed) : seed_(seed) {}
@@ -77,24 +77,25 @@ class SceneBuilder {
               Material material,
               double tone);
 
-  // A drum, pipe or post from the middle of one end to that of the other. Its ends are strips from
-  // side to opposite side, 2 mm apart.
+  // A drum, pipe or post between the middles of its ends. Its ends are strips from side to opposite
+  // side, 2 mm apart.
   void AddPrism(const Eigen::Vector3d& start,
                 const Eigen::Vector3d& end,
                 const PrismShape& shape,
                 Material material,
                 double tone);
 
-  // A rectangle in space: origin, two sides normal to each other, seen from both sides, lit from
+  // A rectangle in space: origin, two sides normal to each other, visible from both sides, lit from
   // the side of side_u x side_v.
   void AddPanel(const Eigen::Vector3d& origin,
                 const Eigen::Vector3d& side_u,
                 const Eigen::Vector3d& side_v,
                 const PanelLook& look);
 
-  // A wall with holes: both faces, the reveals of the holes, its ends and top. The texture runs on
-  // from piece to piece of a face. Edges: the outline and those of the holes, not the seams between
-  // pieces. Holes must lie inside the wall, must not overlap along it, and are sorted by `along`.
+  // A wall with holes: both faces, the reveals of the holes, its ends and top. The texture
+  // continues from piece to piece of a face. Edges: the outline and those of the holes, not the
+  // seams between pieces. Holes must lie inside the wall, must not overlap along it, and are sorted
+  // by `along`.
   void AddWall(const WallShape& shape,
                std::span<const Opening> openings,
                Material material,
@@ -109,7 +110,7 @@ class SceneBuilder {
                         const PanelLook& look);
 
   // A floor (facing up) or a ceiling (facing down): `corner` and the size along x and y. No edges,
-  // for the walls around bring them.
+  // since the adjacent walls add them.
   void AddFloor(const Eigen::Vector3d& corner,
                 const Eigen::Vector2d& size,
                 Material material,
@@ -124,19 +125,19 @@ class SceneBuilder {
 
   void AddLamp(const Lamp& lamp) { scene_.lamps.push_back(lamp); }
 
-  // A ceiling lamp: a glowing panel facing down, `size` along x and y, and the lamp it is.
+  // A ceiling lamp: a glowing panel facing down, `size` along x and y, with its light.
   void AddCeilingLamp(const Eigen::Vector3d& centre,
                       const Eigen::Vector2d& size,
                       double power,
                       int circuit = 0);
 
-  // A new circuit, to be named by lamps; its number.
+  // Adds a circuit for lamps; returns its number.
   int AddCircuit(std::function<double(double)> level);
 
   void BeginBody(std::function<Rigid3(double)> world_from_body);
   void EndBody() { body_.reset(); }
 
-  // Adds an edge by hand (of something made of panels).
+  // Adds an edge explicitly (of objects made of panels).
   void AddEdge(const Eigen::Vector3d& start, const Eigen::Vector3d& end);
 
   void SetAmbient(double ambient) { scene_.ambient = ambient; }

@@ -22,7 +22,7 @@ namespace plumbline {
 // A recording of a world, made on demand: stereo pairs, depth, inertial samples, exact poses.
 //
 // Frame i is taken at StampNs(i), the middle of its exposure (of the middle row with a rolling
-// shutter). The body (what EuRoC's ground truth and inertial sensor are about) is not the camera:
+// shutter). The body (the frame of EuRoC's ground truth and inertial sensor) is not the camera:
 // calibration().body_from_left. Everything is a function of world and options; the Render functions
 // may be called from several threads.
 class SyntheticSequence {
@@ -50,17 +50,17 @@ class SyntheticSequence {
   // the last.
   Trajectory GroundTruth(int per_frame = 1) const;
   ImuRecording Imu() const;
-  // The true lines of the world that the left camera sees, see TrueLines.
+  // Returns the true lines of the world visible to the left camera, see TrueLines.
   std::vector<TrueLine> Lines(int threads) const;
 
-  // What the ideal sensor sees: camera 0 is the left one.
+  // Returns the image of the ideal sensor: camera 0 is the left one.
   Rendering RenderIdeal(int frame, int camera) const;
-  // What the camera delivers of it: exposure, vignetting, noise, response, rounding.
+  // Returns the camera's image of it: exposure, vignetting, noise, response, rounding.
   GrayImage Sense(const Image<float>& light, int frame, int camera) const;
   GrayImage RenderImage(int frame, int camera) const {
     return Sense(RenderIdeal(frame, camera).light, frame, camera);
   }
-  // What a depth sensor registered to the left camera delivers.
+  // Returns the depth of a sensor registered to the left camera.
   DepthImage SenseDepthOf(const DepthImage& depth, int frame) const;
 
  private:

@@ -12,9 +12,9 @@
 
 namespace plumbline {
 
-// The parts of WriteSequence: how a sequence becomes the files of one format.
+// The parts of WriteSequence: conversion of a sequence to the files of one format.
 
-// Text in the classic locale with so many digits.
+// Text stream in the classic locale with `digits` digits.
 std::ostringstream TextStream(int digits);
 
 // A row of inertial samples: stamp [ns], rates, forces.

@@ -16,22 +16,22 @@
 
 namespace plumbline {
 
-// What the world is like at an instant: where bodies are, how bright lamps are.
+// State of the world at an instant: poses of bodies, brightness of lamps.
 struct Instant {
   RayTracer::Moment moment;
   std::vector<float> levels;  // of the sources of light, see LightMaps
   std::vector<float> glows;   // of the circuits
 };
 
-// A ray that met a surface.
+// Intersection of a ray with a surface.
 struct SurfaceHit {
   unsigned surface = RayTracer::kNothing;
   Eigen::Vector3f origin = Eigen::Vector3f::Zero();      // of the ray, world
   Eigen::Vector3f direction = Eigen::Vector3f::UnitX();  // world, any length
-  int sample = 0;  // number of the sample, chooses the points on lamps
+  int sample = 0;  // number of the sample, selects the points on lamps
 };
 
-// The brightness of what rays meet: textures times light.
+// Brightness of hit surfaces: textures times light.
 class Shading {
  public:
   // `texels` are the cells of the textures, metres, one for each surface.
@@ -42,8 +42,8 @@ class Shading {
   // Distance along the ray in units of its direction.
   float Distance(const SurfaceHit& hit, const Instant& instant) const;
 
-  // Texture level for samples that are `spacing` apart: the lengths on the plane z = 1 of the
-  // camera, right and down (world directions).
+  // Texture level for samples `spacing` apart: the lengths on the plane z = 1 of the camera, right
+  // and down (world directions).
   int LevelOf(const SurfaceHit& hit,
               const Eigen::Vector3f& right,
               const Eigen::Vector3f& down,
@@ -53,7 +53,7 @@ class Shading {
   float Shade(const SurfaceHit& hit, int level, const Instant& instant) const;
 
  private:
-  // A surface ready for use: a = u.dot(p) - u0, b = v.dot(p) - v0 on it.
+  // A precomputed surface: a = u.dot(p) - u0, b = v.dot(p) - v0 on it.
   struct Plane {
     Eigen::Vector3f normal, u, v;
     float offset = 0, u0 = 0, v0 = 0;

@@ -12,10 +12,10 @@
 namespace plumbline {
 
 struct ShadowLimits {
-  double min_contrast = 0.1;   // what the lamp gives, of all light beside the shadow
-  double min_step = 0.03;      // what the lamp gives times the tone of the surface; 1 is white
+  double min_contrast = 0.1;   // light of the lamp relative to all light beside the shadow
+  double min_step = 0.03;      // light of the lamp times the tone of the surface; 1 is white
   double max_penumbra = 0.03;  // metres from full light to full shadow
-  double min_throw = 0.02;     // metres from the edge to where its shadow falls
+  double min_throw = 0.02;     // metres from the edge to its shadow
   double min_length = 0.05;    // metres
 };
 
@@ -25,16 +25,17 @@ struct ShadowEdge {
   int circuit = 0;   // of the lamp
 };
 
-// The straight borders of the shadows that still things throw on still surfaces.
+// Returns the straight borders of the shadows of static objects on static surfaces.
 //
-// For each lamp: `edges` (of bodies, world) that are an outline as the lamp's centre sees them are
-// projected from there on the planes of the surfaces it shines on, and cut to them. Along what
-// remains, every centimetre, rays to the lamp's centre on both sides tell whether there is a border
-// of light; the penumbra is as wide as the lamp looks from the edge, across the border, times the
-// way from edge to surface; the lamp's light is compared with that of all lamps, all on, and 30 %
-// more for what surfaces throw back. Chains become one edge. Curved or blurred borders are none,
-// nor are those that hug the thing that throws them, for they look like a part of its edge.
-// Cost: 3 s on one core for 12 000 edges and 24 lamps; the result does not depend on `threads`.
+// For each lamp: `edges` (of bodies, world) on an outline as seen from the lamp's centre are
+// projected from there on the planes of the surfaces that it lights, and clipped to them. Along the
+// result, every centimetre, rays to the lamp's centre on both sides determine whether there is a
+// border of light; the width of the penumbra is the angular size of the lamp from the edge, across
+// the border, times the distance from edge to surface; the lamp's light is compared with that of
+// all lamps, all on, and 30 % more for reflections. Chains become one edge. Curved or blurred
+// borders are left out, and so are those adjacent to the object that casts them, since they appear
+// as a part of its edge. Cost: 3 s on one core for 12 000 edges and 24 lamps; the result does not
+// depend on `threads`.
 std::vector<ShadowEdge> ShadowEdges(const Scene& scene,
                                     std::span<const Segment3> edges,
                                     const RayTracer& tracer,

@@ -13,8 +13,8 @@
 
 namespace plumbline {
 
-// The pattern of one surface: that of its material, at the place of the surface on its sheet, with
-// shaded rims.
+// The pattern of one surface: that of its material, at the position of the surface on its sheet,
+// with shaded rims.
 class SurfacePattern {
  public:
   // Width and height of the surface, and the size of the cells it will be sampled with, metres (0:

@@ -11,7 +11,7 @@
 
 namespace plumbline {
 
-// Which pair of cameras records a world, but for the distance of the two.
+// Pair of cameras that records a world, without its baseline.
 enum class SynthCamera {
   kEuroc,  // 752 x 480, focal length 458 px, with or without lens distortion
   kKitti,  // 1241 x 376, focal length 718.856 px, ideal and rectified
@@ -21,19 +21,19 @@ constexpr auto EnumNames(std::type_identity<SynthCamera>) {
                     std::pair{SynthCamera::kKitti, "kitti"}};
 }
 
-// How a world is recorded: camera, sensor, path, amount of work.
+// Recording of a world: camera, sensor, path, amount of work.
 struct SynthOptions {
   int frames = 0;  // 0: the whole path
   double rate_hz = 20;
-  int path = 1;      // 2: the second visit, where the world has one
-  double speed = 1;  // of the path, 1 as the world has it
+  int path = 1;      // 2: the second visit, if the world has one
+  double speed = 1;  // of the path, 1 is the world's own
   SynthCamera camera = SynthCamera::kEuroc;
   double scale = 1;        // of the image, 1 is the camera's
   double baseline = 0.11;  // metres
   bool distortion = true;  // radial-tangential lens, as in EuRoC; false: ideal pinhole
   int samples = 4;         // per pixel
-  double shutter_ms = 0;   // how long the shutter is open; 0: an instant, no motion blur
-  int time_samples = 16;   // over the time the shutter is open, at least
+  double shutter_ms = 0;   // exposure time; 0: an instant, no motion blur
+  int time_samples = 16;   // least number over the exposure
   double readout_ms = 0;   // from the first row to the last; 0: all rows at once
   double exposure = 1.25;  // brightness of the image
   bool auto_exposure = false;

@@ -20,15 +20,15 @@ struct TrueLineLimits {
   VisibilityLimits visibility;
 };
 
-// The straight lines of a scene that a camera gets to see, each with the frames that see it: what a
-// perfect line map of a recording would hold.
+// Returns the straight lines of a scene visible to a camera, each with the frames that see it: the
+// perfect line map of a recording.
 //
-// Geometry: Scene::edges, those that lie on each other (within 1 mm) made one. Texture: the painted
-// edges of all still surfaces. Shadow: the sharp borders of shadows of what stands still; seen only
-// while their lamp is at least half bright. A line that lies on one of another kind counts once, as
-// the first of these kinds (within 2 mm). Each is cut down to what is seen, see LineVisibility;
-// lines that no frame sees are left out. Order: by kind, then as the scene has them. The result
-// does not depend on `threads`.
+// Geometry: Scene::edges, coincident ones (within 1 mm) merged. Texture: the painted edges of all
+// static surfaces. Shadow: the sharp borders of shadows of static objects; visible only while their
+// lamp is at least half bright. A line coincident with one of another kind counts once, as the
+// first of these kinds (within 2 mm). Each is cut down to its visible part, see LineVisibility;
+// lines that no frame sees are left out. Order: by kind, then as in the scene. The result does not
+// depend on `threads`.
 //
 // Cost on one core: 0.5 s for 4600 edges, 7 lamps and 10 frames, 6 s for 12 000 edges, 24 lamps and
 // 2000 frames.

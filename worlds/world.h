@@ -13,21 +13,21 @@
 
 namespace plumbline {
 
-// A scene and the way of a camera through it; some have another one, for a second visit.
+// A scene and the path of a camera through it; some have a second path, for a second visit.
 struct World {
   Scene scene;
   CameraPath path;
   std::optional<CameraPath> second_path = {};
 };
 
-// A world by whatever it is given: a built-in one or that of a file.
+// A built-in world or that of a file.
 struct WorldSource {
   std::string name;
-  std::string help;       // one line: what is in it
-  std::string purpose;    // one line: what it is for; empty for files
-  SynthOptions defaults;  // how it is recorded unless told otherwise
+  std::string help;       // one line: its contents
+  std::string purpose;    // one line: its purpose; empty for files
+  SynthOptions defaults;  // default options of its recording
   std::function<World(std::uint64_t seed)> make;
-  std::string text;  // of the file it comes from; empty for built-in worlds
+  std::string text;  // of its file; empty for built-in worlds
 };
 
 }  // namespace plumbline

@@ -9,14 +9,15 @@
 
 namespace plumbline {
 
-// Reads the description of a world from a YAML file: shapes with their materials, lamps, bodies
-// that move, the way of the camera, and how it is recorded. The form is told in docs/worlds.md.
+// Reads the description of a world from a YAML file: shapes with their materials, lamps, moving
+// bodies, the path of the camera, and its recording. docs/worlds.md describes the format.
 //
-// Everything is checked here, so that `make` of the result succeeds for every seed, which gives the
-// textures and the carrier's motions. Throws InputError "FILE:LINE: key: expected ..., found ...".
+// Everything is checked here, so that `make` of the result succeeds for every seed, which
+// determines the textures and the carrier's motions. Throws InputError "FILE:LINE: key: expected
+// ..., found ...".
 WorldSource ReadWorldFile(const std::filesystem::path& file);
 
-// The same of the text of a file; `source` stands for its name in messages.
+// The same for the text of a file; `source` is its name in messages.
 WorldSource ParseWorldFile(const std::string& text, const std::string& source);
 
 }  // namespace plumbline

@@ -23,23 +23,23 @@ constexpr auto EnumNames(std::type_identity<SequenceFormat>) {
                     std::pair{SequenceFormat::kTum, "tum"}};
 }
 
-// Makes sure that a folder may be written to, and can be: it is made where it is missing. A
-// rendered sequence in it, whole or not, stays. Throws InputError when it holds anything else, or
-// such a file lies in the folders of the sequence, or it cannot be written to. WriteSequence does
-// this, too; called before the work of preparing a sequence, it saves the wait.
+// Checks that a folder may and can be written to: it is made if it is missing. A rendered sequence
+// in it, complete or not, stays. Throws InputError if it contains anything else, also inside the
+// folders of the sequence, or cannot be written to. WriteSequence does this, too; called before the
+// work of preparing a sequence, it avoids the wait.
 void CheckSequenceFolder(const std::filesystem::path& folder);
 
-// Makes a folder ready to be written to, as WriteSequence does first: a rendered sequence in it is
-// removed. Throws as CheckSequenceFolder.
+// Makes a folder ready to be written to, as the first step of WriteSequence: a rendered sequence in
+// it is removed. Throws like CheckSequenceFolder.
 void PrepareSequenceFolder(const std::filesystem::path& folder);
 
-// Writes a sequence as the folder of a data set. Beside what the format has: `lines.csv` (the true
-// lines, see TrueLines), `surfaces.csv` (all that stands still) and `world.yaml` (world, format and
-// options), which is written last: a folder with it is whole. `progress`, where given, is called
-// after each frame with the number of frames done, one call at a time. The bytes written depend on
-// neither the machine's load nor `threads`.
+// Writes a sequence as the folder of a data set. In addition to the files of the format:
+// `lines.csv` (the true lines, see TrueLines), `surfaces.csv` (all static surfaces) and
+// `world.yaml` (world, format and options), which is written last: a folder with it is complete.
+// `progress`, if given, is called after each frame with the number of frames done, one call at a
+// time. The bytes written depend on neither the machine's load nor `threads`.
 //
-// Throws InputError as PrepareSequenceFolder does, and when a file cannot be written.
+// Throws InputError like PrepareSequenceFolder, and if a file cannot be written.
 void WriteSequence(const SyntheticSequence& sequence,
                    SequenceFormat format,
                    const std::filesystem::path& folder,

@@ -9,8 +9,8 @@
 
 namespace plumbline {
 
-// What is fixed to walls and ceilings. Every place is on the face of the wall and looks into the
-// room, its base the middle of the lower side of the thing.
+// Fittings of walls and ceilings. Every place is on the face of the wall and faces the room; its
+// base is the middle of the lower side of the fitting.
 
 // The frame around a hole for a door, 7 cm broad on the face of the wall.
 void AddDoorFrame(SceneBuilder& scene, const Place& place, const Eigen::Vector2d& hole);
@@ -23,11 +23,11 @@ struct DoorShape {
 };
 void AddDoor(SceneBuilder& scene, const Place& place, const DoorShape& shape);
 
-// A door leaf standing open: its hinge is at the place, the leaf runs to the front.
+// An open door leaf: its hinge is at the place, the leaf extends to the front.
 void AddOpenLeaf(SceneBuilder& scene, const Place& place, const DoorShape& shape);
 
-// A window of frosted daylight with its frame, sill and the lamp it is. The pane lies at the place,
-// the face of the wall `recess` before it.
+// A window of frosted daylight with its frame and sill, which is also a lamp. The pane lies at the
+// place, the face of the wall `recess` in front of it.
 struct WindowShape {
   double breadth = 1.4, height = 1.3;
   double recess = 0.1;
@@ -55,7 +55,7 @@ void AddCurtain(SceneBuilder& scene, const Place& place, const Eigen::Vector2d& 
 void AddChecker(SceneBuilder& scene, const Place& place, int columns, int rows, double square);
 
 // A suspended ceiling at z = corner.z(): mineral boards over a grid of metal bars, of which those
-// along x lie 2 mm lower; a bar lies along each side of the room. Cells start at the corner.
+// along x are 2 mm lower; a bar lies along each side of the room. Cells start at the corner.
 struct CeilingGrid {
   Eigen::Vector3d corner = Eigen::Vector3d::Zero();
   Eigen::Vector2d size = Eigen::Vector2d::Ones();  // along x and y
@@ -64,7 +64,7 @@ struct CeilingGrid {
 };
 void AddCeilingGrid(SceneBuilder& scene, const CeilingGrid& grid);
 
-// A lamp in place of `cells_x` x `cells_y` boards of a grid, the first of them at column, row.
+// A lamp replacing `cells_x` x `cells_y` boards of a grid, the first of them at column, row.
 struct GridLamp {
   int column = 0, row = 0;
   int cells_x = 1, cells_y = 2;

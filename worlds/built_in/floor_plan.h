@@ -13,8 +13,8 @@
 
 namespace plumbline {
 
-// The inside of a room of a building, floor at z = 0: a rectangle of the plan. Neighbours are as
-// far apart as the wall between them is thick.
+// The inside of a room of a building, floor at z = 0: a rectangle of the plan. Neighbours are a
+// wall's thickness apart.
 struct RoomPlan {
   Eigen::Vector2d low = Eigen::Vector2d::Zero();
   Eigen::Vector2d high = Eigen::Vector2d::Ones();
@@ -24,14 +24,14 @@ struct RoomPlan {
   Material floor = Material::kCarpet;
   double floor_tone = 0.4;
   double skirting = 0.08;  // height; 0: none
-  bool grid = true;        // a suspended ceiling in a grid of 0.6 m; else a plain one
+  bool grid = true;        // true: a suspended ceiling in a grid of 0.6 m; false: a plain one
 
   CeilingGrid Ceiling() const;
 };
 
-// A hole through a wall: a rectangle of the plan, between two heights. It belongs to each room it
-// touches with a whole side: two rooms are joined, one gets a niche for a window. One without depth
-// joins rooms that touch. `frame`: a door frame on each face.
+// A hole through a wall: a rectangle of the plan, between two heights. It belongs to each room that
+// it touches with a whole side: two rooms are connected, a single one gets a niche for a window. A
+// hole without depth connects adjoining rooms. `frame`: a door frame on each face.
 struct Passage {
   Eigen::Vector2d low = Eigen::Vector2d::Zero();
   Eigen::Vector2d high = Eigen::Vector2d::Zero();
@@ -40,20 +40,20 @@ struct Passage {
   bool frame = true;
 };
 
-// Walls with their holes, floors, ceilings, skirtings, and the edges where they meet.
+// Adds walls with their holes, floors, ceilings, skirtings, and the edges between them.
 void AddBuilding(SceneBuilder& scene,
                  std::span<const RoomPlan> rooms,
                  std::span<const Passage> passages);
 
-// A straight piece of a walk: where it ends and where the walker looks.
+// A straight leg of a walk: its end and the walker's viewing direction.
 struct Leg {
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
   double gaze = 0;   // to the left of the direction of walking, radians
   double pitch = 0;  // down
 };
 
-// Waypoints of a walk over a plan that cuts its corners at `radius` before and after them (less on
-// short legs).
+// Returns the waypoints of a walk over a plan that cuts its corners at `radius` before and after
+// them (less on short legs).
 std::vector<Waypoint> WalkAlong(const Eigen::Vector2d& start,
                                 std::span<const Leg> legs,
                                 double height,

@@ -8,8 +8,8 @@
 
 namespace plumbline {
 
-// Where a thing stands or hangs. In its own frame the origin is the middle of its back at the foot,
-// x runs along it, y to its front, z up: against the wall y = 0 of a room it faces pi / 2, against
+// Pose of a piece of furniture. In its own frame the origin is the middle of its back at the foot,
+// x is along it, y to its front, z up: against the wall y = 0 of a room it faces pi / 2, against
 // the wall x = 0 it faces 0.
 struct Place {
   Eigen::Vector3d base = Eigen::Vector3d::Zero();  // world, metres
@@ -31,24 +31,24 @@ struct TableShape {
 };
 void AddTable(SceneBuilder& scene, const Place& place, const TableShape& shape);
 
-// `count` boxes and small things spread over a table top.
+// Adds `count` boxes and small objects spread over a table top.
 void AddClutter(SceneBuilder& scene, const Place& place, const TableShape& shape, int count);
 
-// A computer screen on its foot, 0.55 m broad; the place is on the table, its face looks to the
+// A computer screen on its foot, 0.55 m broad; the place is on the table, and the screen faces its
 // front.
 void AddScreen(SceneBuilder& scene, const Place& place);
 
-// A desk with `screens` screens, a keyboard, papers and a mug; its front is where one sits.
+// A desk with `screens` screens, a keyboard, papers and a mug; the seat is at its front.
 void AddWorkplace(SceneBuilder& scene, const Place& place, double length, int screens);
 
-// A chair with a padded seat and back on four legs; one sits looking to the front.
+// A chair with a padded seat and back on four legs, which faces its front.
 void AddChair(SceneBuilder& scene, const Place& place);
 
 // An upright shelf with books, boxes and gaps.
 struct ShelfShape {
   double breadth = 1.6, height = 1.95, depth = 0.32;
   int levels = 5;
-  double filled = 0.95;  // share of the boards that carries things
+  double filled = 0.95;  // filled share of the boards
   double tone = 0.5;
 };
 void AddShelf(SceneBuilder& scene, const Place& place, const ShelfShape& shape);

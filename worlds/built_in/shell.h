@@ -18,8 +18,9 @@ struct Finish {
   double tone = 0.5;
 };
 
-// A rectangular room, a corner of its floor at the origin. Wall k runs from corner k to the next,
-// counterclockwise: y = 0, x = size.x, y = size.y, x = 0; its holes are counted from corner k.
+// A rectangular room with a corner of its floor at the origin. Wall k goes from corner k to the
+// next, counterclockwise: y = 0, x = size.x, y = size.y, x = 0; its holes are counted from corner
+// k.
 struct ShellShape {
   Eigen::Vector3d size = {6, 5, 2.8};
   double thickness = 0.24;  // of the walls, outside of the size
@@ -28,31 +29,31 @@ struct ShellShape {
   std::array<std::vector<Opening>, 4> openings;
 
   double Length(std::size_t k) const { return k % 2 == 0 ? size.x() : size.y(); }
-  // On the inner face of wall k, `along` from corner k and `height` over the floor; looks into the
-  // room.
+  // A place on the inner face of wall k, `along` from corner k and `height` over the floor; it
+  // faces the room.
   Place Wall(std::size_t k, double along = 0, double height = 0) const;
 };
 
-// Floor, ceiling and the four walls with their holes. The floor goes on through the doors.
+// Adds floor, ceiling and the four walls with their holes. The floor continues through the doors.
 void AddShell(SceneBuilder& scene, const ShellShape& shell);
 
-// A board along the foot of every wall, left out at holes that reach the floor.
+// Adds a board along the foot of every wall, except at holes that reach the floor.
 void AddSkirting(SceneBuilder& scene, const ShellShape& shell, const Finish& finish);
 
-// A panel that closes a hole of a wall at its far side, `back` behind the face the place is on;
-// `hole` is given in the frame of the place.
+// A panel that closes a hole of a wall at its far side, `back` behind the face of the place; `hole`
+// is given in the frame of the place.
 void AddBacking(SceneBuilder& scene,
                 const Place& wall,
                 const Opening& hole,
                 double back,
                 const PanelLook& look);
 
-// A window in a hole of a wall, with sky over trees outside and the lamp it is; `hole` as above.
+// A window in a hole of a wall, with sky over trees outside, which is also a lamp; `hole` as above.
 // Walls must be at least 0.2 m thick.
 struct ViewShape {
   int panes = 2;       // side by side
   double power = 1.5;  // of the lamp
-  double glow = 0.4;   // of what is outside
+  double glow = 0.4;   // of the view outside
   int slats = 0;       // of a blind, from the top down
 };
 void AddViewWindow(SceneBuilder& scene,
@@ -79,12 +80,12 @@ void AddPicture(SceneBuilder& scene,
                 const Eigen::Vector2d& size,
                 Material material);
 
-// A row of things on a board, as tall as `tallest`: books, boxes, gaps. It starts at the place and
-// runs along it for `length`; the middle of the things is on its x axis.
+// Adds a row of objects on a board, up to `tallest` high: books, boxes, gaps. It starts at the
+// place and goes along it for `length`; the middle of the objects is on its x axis.
 void AddThings(SceneBuilder& scene, const Place& place, double length, double tallest);
 
 // A pair of bare tubes under a housing; the place is the middle of the housing's lower side, the
-// lamp runs along its x.
+// lamp is along its x.
 struct TubeShape {
   double length = 1.2;
   double power = 1.0;

@@ -19,7 +19,7 @@ void AddHouse(SceneBuilder& scene, const Place& place, const HouseShape& shape);
 // A car, 4.2 m long along the x axis of its place, which is the middle of the ground under it.
 void AddCar(SceneBuilder& scene, const Place& place);
 
-// A tree: a stem, and leaves on panels turned all ways around the middle of its crown.
+// A tree: a stem, and leaves on panels in all orientations around the middle of its crown.
 void AddTree(SceneBuilder& scene, const Eigen::Vector3d& foot);
 
 // A lamp post, 4.5 to 6 m tall, with an arm to the front of the place.

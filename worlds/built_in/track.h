@@ -8,7 +8,7 @@
 
 namespace plumbline {
 
-// A closed way along a rectangle with round corners, counterclockwise.
+// A closed track along a rectangle with round corners, counterclockwise.
 struct Track {
   Eigen::Vector2d centre;
   Eigen::Vector2d half;  // half its size
@@ -17,7 +17,7 @@ struct Track {
   double start;          // metres along it at time 0
   double z = 0;
 
-  // Where one is, with x ahead.
+  // Pose on the track, with x ahead.
   Rigid3 At(double time) const;
 };
 
