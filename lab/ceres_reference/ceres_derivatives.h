@@ -4,7 +4,7 @@
 
 namespace plumbline {
 
-// Where the reference's terms get their derivatives from.
+// Source of the derivatives of the reference's terms.
 enum class CeresDerivatives {
   kAnalytic,   // those of residuals.h, in the tangent: for TangentManifold
   kAutomatic,  // of a second, plain formulation of the residuals, in the ambient numbers

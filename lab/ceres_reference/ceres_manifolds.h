@@ -9,7 +9,7 @@
 
 #include <ceres/manifold.h>
 
-// How Ceres, the reference of tests and measurements, moves poses and lines.
+// Manifolds of poses and lines for Ceres, the reference of tests and measurements.
 
 namespace plumbline {
 
@@ -47,8 +47,8 @@ using OrthonormalLineManifold = LineManifold<false>;
 using LeftOrthonormalLineManifold = LineManifold<true>;
 
 // The manifold for terms that write derivatives with respect to the tangent into the first columns
-// of their Jacobian and zeros into the others: Ceres multiplies with [I; 0], instead of terms and
-// manifold computing two factors whose product is the tangent's derivative again.
+// of their Jacobian and zeros into the others: Ceres multiplies with [I; 0], which saves the
+// product of two factors, of term and manifold.
 template <class Base>
 class TangentManifold final : public Base {
  public:
@@ -68,8 +68,8 @@ class TangentManifold final : public Base {
   }
 };
 
-// TangentManifold<OrthonormalLineManifold> with RetractStraight() as Plus, as our own solver moves
-// lines. For solving only: Minus is the inverse to first order.
+// TangentManifold<OrthonormalLineManifold> with RetractStraight() as Plus, the update of our own
+// solver. For solving only: Minus is the inverse to first order.
 class StraightLineManifold final : public ceres::Manifold {
  public:
   int AmbientSize() const override { return 6; }

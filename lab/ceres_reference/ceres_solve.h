@@ -28,11 +28,11 @@ struct CeresBaResult {
   int iterations = 0;
 };
 
-// All observations of a problem in one solve. As fast as we know how to make it: DENSE_SCHUR on one
-// thread with landmarks eliminated first by an explicit ordering, measurements prepared once,
-// analytic derivatives in fixed sizes straight in the tangent (TangentManifold), one loss function
-// and one manifold shared by all blocks, Ceres' safety checks off. Projected ends of lines come
-// with automatic derivatives only: BugError with analytic ones.
+// All observations of a problem in one solve. As fast as possible: DENSE_SCHUR on one thread with
+// landmarks eliminated first by an explicit ordering, measurements prepared once, analytic
+// derivatives in fixed sizes directly in the tangent (TangentManifold), one loss function and one
+// manifold shared by all blocks, Ceres' safety checks off. Projected ends of lines have automatic
+// derivatives only: BugError with analytic ones.
 CeresBaResult SolveWithCeres(const BaProblem& problem, const CeresBaOptions& options);
 
 struct CeresPoseOptions {
@@ -52,7 +52,7 @@ struct CeresPoseResult {
 };
 
 // The camera's pose in the rounds of SolvePose(), without its start from afar: dense normal
-// equations on one thread; the problem is set up once, rejected matches are taken out and put back.
+// equations on one thread; the problem is set up once, outliers are removed and reinserted.
 CeresPoseResult SolvePoseWithCeres(const PoseProblem& problem, const CeresPoseOptions& options);
 
 }  // namespace plumbline

@@ -12,9 +12,9 @@
 
 #include <ceres/cost_function.h>
 
-// The residuals of this module as Ceres terms: the reference our own solvers are tested and
-// measured against. In a library of its own (plumbline::ceres_reference), so that nothing else
-// needs Ceres. Poses and lines move as ceres_manifolds.h says.
+// The residuals of this module as Ceres terms: the reference for tests and measurements of our own
+// solvers. In a library of its own (plumbline::ceres_reference), so that nothing else needs Ceres.
+// Manifolds are those of ceres_manifolds.h.
 
 namespace plumbline {
 
@@ -24,20 +24,20 @@ std::unique_ptr<ceres::CostFunction> MakePointCost(const RectifiedCamera& camera
                                                    CeresDerivatives derivatives);
 
 // Parameter blocks: pose (7) and line (6): OrthonormalLineManifold or its left form, or the
-// coordinates of two points, which need no manifold.
+// coordinates of two points, without a manifold.
 std::unique_ptr<ceres::CostFunction> MakeLineCost(const RectifiedCamera& camera,
                                                   const LineMeasurement& measurement,
                                                   CeresDerivatives derivatives,
                                                   LineParametrization line);
 
-// The same for LineResidualKind::kProjectedEnds, by automatic derivatives. `interval`: the ends'
-// parameters along the line; not used with end points.
+// The same for LineResidualKind::kProjectedEnds, by automatic derivatives. `interval`: the
+// parameters of the ends along the line; not used with end points.
 std::unique_ptr<ceres::CostFunction> MakeProjectedEndsCost(const RectifiedCamera& camera,
                                                            const LineMeasurement& measurement,
                                                            LineParametrization line,
                                                            const LineInterval& interval);
 
-// Costs of one match with a landmark that stays fixed, analytic. Parameter block: pose (7).
+// Costs of one match with a fixed landmark, analytic. Parameter block: pose (7).
 std::unique_ptr<ceres::CostFunction> MakePosePointCost(const RectifiedCamera& camera,
                                                        const PoseProblem::PointMatch& match);
 std::unique_ptr<ceres::CostFunction> MakePoseLineCost(const RectifiedCamera& camera,

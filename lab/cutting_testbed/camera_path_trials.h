@@ -8,11 +8,10 @@
 
 namespace plumbline {
 
-// How a line is cut as the camera goes around it (second paper, Figure 2): from end on to
-// broadside.
+// Cuts of a line along a camera path around it (second paper, Figure 2): from end on to broadside.
 struct CameraPathPoint {
   double angle_deg = 0;  // between optical axis and line
-  // Of the best ratios by brute force over the scenes: 25, 50 and 75 %.
+  // Quartiles (25, 50 and 75 %) of the best ratios by brute force over the scenes.
   std::array<double, 3> first{}, second{};
 };
 

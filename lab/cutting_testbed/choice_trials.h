@@ -13,14 +13,14 @@
 
 namespace plumbline {
 
-// How a given number of points and lines is chosen.
+// Methods of choosing a given number of points and lines.
 enum class ChoiceVariant {
   kTogether,        // ChooseFeatures with greedy: points and lines with their best cuts
-  kTogetherSweeps,  // the same, and the chosen lines cut again
+  kTogetherSweeps,  // the same, with the chosen lines cut again
   kChooseThenCut,   // points and whole lines together, then the chosen lines cut
-  kApart,           // half the budget for points, half for cut lines, neither knowing of the other
-  kWhole,           // points and whole lines together, nothing cut
-  kRandom,          // any, then cut
+  kApart,           // half the budget for points, half for cut lines, independently
+  kWhole,           // points and whole lines together, without cutting
+  kRandom,          // random choice, then cut
 };
 constexpr auto EnumNames(std::type_identity<ChoiceVariant>) {
   return std::array{std::pair{ChoiceVariant::kTogether, "together"},
@@ -39,7 +39,7 @@ struct ChoiceOptions {
 };
 
 // log det of the pose for each choice, and the best known: of all subsets of that size with their
-// lines cut by greedy_sweeps where try_all is set (12 features and less), else of the variants.
+// lines cut by greedy_sweeps if try_all is set (at most 12 features), otherwise of the variants.
 struct ChoiceTrial {
   std::map<ChoiceVariant, double> log_determinant;
   double best = -std::numeric_limits<double>::infinity();

@@ -14,7 +14,7 @@ struct GridMaximum {
   double value = -std::numeric_limits<double>::infinity();
 };
 
-// The greatest value over all pairs of ratios 0, 1/steps, ..., 1 with first <= second.
+// Returns the maximum over all pairs of ratios 0, 1/steps, ..., 1 with first <= second.
 template <class Objective>
 GridMaximum SearchGrid(const Objective& objective, int steps) {
   GridMaximum best;

@@ -13,9 +13,10 @@
 
 namespace plumbline {
 
-// Ways to maximize log det over the ratios of all lines (second paper, 5.2 and Figure 4). All begin
-// at full length and stop when no ratio changes by more than 1e-5 or the gradient inside the box is
-// below 1e-4 (of these the one that the method knows), after kMaxJointEvaluations at the latest.
+// Methods of maximizing log det over the ratios of all lines (second paper, 5.2 and Figure 4). All
+// begin at full length and stop if no ratio changes by more than 1e-5 or the gradient inside the
+// box is below 1e-4 (the criterion available in the method), after kMaxJointEvaluations at the
+// latest.
 enum class JointOptimizer {
   kFull,      // no cutting
   kGreedy,    // CuttingMethod::kGreedy
@@ -39,7 +40,7 @@ constexpr auto EnumNames(std::type_identity<JointOptimizer>) {
 
 inline constexpr int kMaxJointEvaluations = 2000;
 
-// log det by the 2n ratios of the lines, with its gradient.
+// log det as a function of the 2n ratios of the lines, with its gradient.
 class JointObjective {
  public:
   JointObjective(const CuttingProblem& problem, CuttingInformation information)
@@ -56,12 +57,12 @@ class JointObjective {
 
 Eigen::VectorXd RatiosOf(const std::vector<LineCut>& cuts);
 
-// The ratios that the optimizer ends with, each in [0, 1].
+// Returns the final ratios of the optimizer, each in [0, 1].
 Eigen::VectorXd OptimizeJointly(const CuttingProblem& problem,
                                 CuttingInformation information,
                                 JointOptimizer optimizer);
 
-// The parts of it that need other libraries.
+// The parts of it that depend on other libraries.
 Eigen::VectorXd MaximizeWithIpopt(const JointObjective& objective);
 Eigen::VectorXd MaximizeWithNlopt(const JointObjective& objective, JointOptimizer optimizer);
 

@@ -13,11 +13,11 @@ namespace plumbline {
 
 struct JointOutcome {
   double log_determinant = 0;
-  double microseconds = 0;  // by the clock
+  double microseconds = 0;  // wall time
 };
 
-// All optimizers on one scene, and the best that is known: the best of theirs, of ascents from
-// where greedy_sweeps ends, and of ascents from eight random places.
+// All optimizers on one scene, and the best known value: the best of theirs, of ascents from the
+// result of greedy_sweeps, and of ascents from eight random starts.
 struct JointTrial {
   std::map<JointOptimizer, JointOutcome> outcomes;
   double best = -std::numeric_limits<double>::infinity();

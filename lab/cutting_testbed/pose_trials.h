@@ -12,7 +12,7 @@
 
 namespace plumbline {
 
-// Which pieces of the lines a pose is solved from, and with which weights.
+// Pieces and weights of the lines that determine a pose.
 enum class PoseVariant {
   kFull,           // whole, all weights 1
   kCut,            // greedy, independent
@@ -47,13 +47,13 @@ constexpr auto EnumNames(std::type_identity<PoseVariant>) {
 struct PoseError {
   double translation_m = 0;
   double rotation_deg = 0;
-  double along_motion_m = 0;  // below 0: less motion was found than there was; 0 without motion
+  double along_motion_m = 0;  // below 0: the motion is underestimated; 0 without motion
 };
 using PoseTrial = std::map<PoseVariant, PoseError>;
 
-// The errors of the pose that each variant finds in scene `index`. The prediction from which they
-// start, at which cuts and weights are computed, is wrong by 1 degree and 5 cm in each axis
-// (standard deviations); all variants have the same measurements.
+// Returns the errors of the pose estimated by each variant in scene `index`. The prediction, which
+// is the initial pose and the pose of cuts and weights, has errors of 1 degree and 5 cm in each
+// axis (standard deviations); all variants have the same measurements.
 PoseTrial TryPoses(const SceneOptions& options, std::uint64_t index);
 
 }  // namespace plumbline

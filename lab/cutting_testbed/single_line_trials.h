@@ -13,7 +13,7 @@
 
 namespace plumbline {
 
-// From where the gradient ascents of a single line begin.
+// Starts of the gradient ascents of a single line.
 enum class AscentStarts {
   kFull,   // (0, 1) alone
   kPaper,  // (0, 1), (0, 0), (1, 1)
@@ -25,13 +25,14 @@ constexpr auto EnumNames(std::type_identity<AscentStarts>) {
                     std::pair{AscentStarts::kThree, "three_starts"}};
 }
 
-// Gradient ascent against brute force, of one line while the others keep their full length.
+// Gradient ascent against brute force, for one line while the others keep their full length.
 struct SingleLineTrial {
   Eigen::Vector2d grid, ascent;  // ratios, lesser first
-  double shortfall = 0;          // log det of the grid's best less that of the ascent's
+  double shortfall = 0;          // log det of the grid's best minus that of the ascent's
 
   bool RatiosAgree() const { return (grid - ascent).lpNorm<Eigen::Infinity>() <= 0.01 + 1e-9; }
-  // Or the surface is so flat that it does not matter, or the grid is too coarse to be better.
+  // Returns true also if the surface is so flat that the difference is irrelevant, or the grid is
+  // too coarse to be better.
   bool Agrees() const { return RatiosAgree() || shortfall <= 1e-3; }
 };
 
@@ -50,8 +51,8 @@ struct SurfaceExample {
   Eigen::Vector2d best;     // ratios of the greatest value
 };
 enum class SurfaceShape { kFullLength, kPiece, kPoint };
-// The first scene of these options with a line whose best cut has this shape: both ends kept, a
-// piece (first end kept, second between 0.5 and 0.9), a point.
+// Returns the first scene of these options with a line whose best cut has this shape: both ends
+// kept, a piece (first end kept, second between 0.5 and 0.9), a point.
 SurfaceExample FindSurface(const SceneOptions& options, SurfaceShape shape);
 
 }  // namespace plumbline

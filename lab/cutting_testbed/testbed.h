@@ -28,8 +28,8 @@ struct SingleLineCell : TrialCell<SingleLineTrial> {
   AscentStarts starts = AscentStarts::kThree;
 };
 
-// Everything that the testbed of the second paper shows (4.2, 5.1, 5.2, Figures 2 to 4), and what
-// the paper has not: the errors of the poses.
+// All trials of the testbed of the second paper (4.2, 5.1, 5.2, Figures 2 to 4), and in addition
+// the errors of the poses.
 struct TestbedTrials {
   std::vector<SingleLineCell> single;  // independent from each set of starts, printed from kThree
   std::vector<TrialCell<JointTrial>> joint;
@@ -47,7 +47,7 @@ struct TestbedTrials {
   std::vector<SurfaceExample> surfaces;  // full length, piece, point
 };
 
-// Which of it.
+// Selected trials.
 enum class TestbedParts {
   kAll,
   kFigures,  // Figures 2 to 4: single lines, joint optimizers, camera paths, surfaces
@@ -56,7 +56,7 @@ enum class TestbedParts {
 // `repeats` scenes for each kind, noise (0.005, 0.015; stereo 0.05, 0.15) and number of lines (6,
 // 10, 15, 20, 30; printed information: at most 20 scenes, one line of each). One thread; 100
 // repeats take some five minutes, most of it in Ipopt. `progress(done, total)` is called after each
-// cell; false ends the run, what is there so far is returned.
+// cell; false ends the run with the results so far.
 TestbedTrials RunTestbed(int repeats,
                          TestbedParts parts,
                          const std::function<bool(std::size_t, std::size_t)>& progress);

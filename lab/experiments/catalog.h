@@ -9,10 +9,10 @@
 
 namespace plumbline {
 
-// The experiments there are. A new one is an entry here, or in paper_catalog.cc, and nothing else.
+// All experiments. A new one needs only an entry here, or in paper_catalog.cc.
 std::span<const Experiment> Experiments();
 
-// Throws InputError for an unknown name, with the names there are.
+// Throws InputError for an unknown name, with all names.
 const Experiment& FindExperiment(std::string_view name);
 
 }  // namespace plumbline

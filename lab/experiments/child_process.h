@@ -9,28 +9,28 @@
 
 namespace plumbline {
 
-// A program run beside this one, without input, in a process group of its own: what is typed at the
-// terminal does not reach it. It dies with the thread that started it.
+// A program that runs concurrently, without input, in a process group of its own: signals of the
+// terminal do not reach it. It dies with the thread that started it.
 class ChildProcess {
  public:
   // Starts command[0] with the other words as arguments; its output and messages go to the file
-  // `log`. Throws InputError when the log cannot be written or no process be made. A program that
-  // cannot be started ends with code 127. With `memory_mb` its address space is limited to so much:
-  // what it asks for beyond is refused.
+  // `log`. Throws InputError if the log cannot be written or no process can be made. A program that
+  // cannot be started ends with code 127. `memory_mb` limits its address space: allocations beyond
+  // fail.
   ChildProcess(const std::vector<std::string>& command,
                const std::filesystem::path& log,
                std::optional<int> memory_mb = std::nullopt);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
-  // Kills it, and what it started, where it still runs.
+  // Kills it and its descendants, if still running.
   ~ChildProcess();
 
-  // How a program ended: by itself with a code, or by a signal.
+  // End of a program: by itself with a code, or by a signal.
   struct End {
     int code = 0;
     std::optional<int> signal;
   };
-  // nullopt while it runs. Does not wait.
+  // Returns nullopt while it runs. Does not wait.
   std::optional<End> Poll();
 
  private:

@@ -9,7 +9,7 @@
 
 namespace plumbline {
 
-// Those there are. A new one is an entry here.
+// All computed experiments. A new one needs an entry here.
 std::span<const ComputedExperiment> ComputedExperiments();
 
 // nullptr for an unknown name.

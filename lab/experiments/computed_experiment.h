@@ -12,20 +12,19 @@
 
 namespace plumbline {
 
-// An experiment that computes by itself, without sequences and runs of the program (those:
+// An experiment that computes by itself, without sequences and runs of the program (unlike
 // Experiment in experiment.h).
 struct ComputedExperiment {
   std::string name;
-  std::string help;        // what it shows, one sentence
-  int repeats = 1;         // unless asked for otherwise
-  int full_repeats = 1;    // the same with --full
-  double repeat_s = 1;     // what a repeat takes, roughly
-  bool exclusive = false;  // measures times
+  std::string help;        // its purpose, one sentence
+  int repeats = 1;         // default
+  int full_repeats = 1;    // default with --full
+  double repeat_s = 1;     // approximate duration of a repeat
+  bool exclusive = false;  // true if it measures times
   std::span<const FigureMetric> metrics;
   // Computes and writes results.json, timing.json, table.md, table.html and plots/*.svg into `out`,
-  // and timing.md where it measures times.
-  // `progress(done, total)` returns false to stop; no file is then written and false returned.
-  // Throws InputError when a file cannot be written.
+  // and timing.md if it measures times. `progress(done, total)` returns false to stop; no file is
+  // then written and false returned. Throws InputError if a file cannot be written.
   using Progress = std::function<bool(std::size_t, std::size_t)>;
   bool (*run)(const ComputedExperiment& self,
               int repeats,

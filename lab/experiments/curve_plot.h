@@ -21,7 +21,7 @@ struct CurvePanel {
   std::string title, label_x, label_y;
   std::vector<Curve> curves;
   bool dots = false;  // mark the points
-  // Where the axes end; 0: at the greatest value.
+  // Ends of the axes; 0: the greatest value.
   double end_x = 0, end_y = 0;
 };
 

@@ -14,12 +14,12 @@ namespace plumbline {
 // The metrics of the testbed of line cutting.
 std::span<const FigureMetric> CuttingTestbedMetrics();
 
-// What the trials come to, without seeds. Sequences: single/..., joint/..., pose/... with kind,
-// noise and number of lines of the scenes, or `all` for several taken together; choice/... with the
-// budget and the numbers of points and lines.
+// Returns the figures of the trials, without seeds. Sequences: single/..., joint/..., pose/... with
+// kind, noise and number of lines of the scenes, or `all` for several taken together; choice/...
+// with the budget and the numbers of points and lines.
 std::vector<FigureRow> CuttingTestbedFigures(const TestbedTrials& trials);
 
-// How long the optimizers took: not the same from run to run.
+// Returns the times of the optimizers, which differ from run to run.
 std::vector<FigureRow> CuttingTestbedTimes(const TestbedTrials& trials);
 
 // camera_path (Figure 2), surface_* (Figure 3), joint_* (Figure 4), pose_error.

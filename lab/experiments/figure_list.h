@@ -9,8 +9,7 @@
 
 namespace plumbline {
 
-// One figure of an experiment, in the form of results.json. Where there is no value, `reason` says
-// why.
+// One figure of an experiment, in the form of results.json. Without a value, `reason` is set.
 struct FigureRow {
   std::string sequence, variant;
   std::optional<int> seed;
@@ -20,14 +19,14 @@ struct FigureRow {
   std::string reason = {};
 };
 
-// What a metric of a list is, for the legend under its tables.
+// Description of a metric of a list, for the legend under its tables.
 struct FigureMetric {
   std::string_view name, unit, help;
-  int digits = 0;  // behind the point in tables
+  int digits = 0;  // decimals in tables
 };
 
 // A JSON list, one figure a line: {"experiment", "sequence", "variant", "seed", "metric", "value",
-// "unit"}, null for what does not apply; where value is null, "reason".
+// "unit"}, null for inapplicable entries; if value is null, "reason".
 std::string FormatFigureList(const std::string& experiment, std::span<const FigureRow> rows);
 
 }  // namespace plumbline

@@ -12,14 +12,14 @@ namespace plumbline {
 
 // The figures as tables: one for each first part of the sequences' names (before /), with a row for
 // each sequence and variant and a column for each metric, in the order of their first figures.
-// Seeds are not told apart. Every metric must be among `metrics`.
+// Seeds are not distinguished. Every metric must be among `metrics`.
 std::string FormatFigureMarkdown(const std::string& title,
                                  const std::string& help,
                                  std::span<const FigureRow> rows,
                                  std::span<const FigureMetric> metrics);
 
-// A page of HTML that needs no other file: the tables of FormatFigureMarkdown, what a paper prints
-// of the same figures, and the plots.
+// A self-contained HTML page: the tables of FormatFigureMarkdown, the same figures as printed in a
+// paper, and the plots.
 std::string FormatFigurePage(const std::string& title,
                              const std::string& help,
                              std::span<const FigureRow> rows,

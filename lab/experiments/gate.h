@@ -12,34 +12,34 @@
 
 namespace plumbline {
 
-// What a figure of an experiment must keep.
+// Limit of a figure of an experiment.
 struct GateLimit {
   std::string experiment, sequence, variant, metric, unit;
   std::optional<double> at_most, at_least;  // one of them
-  bool of_mean = false;                     // of all runs, in place of the worst
+  bool of_mean = false;                     // true: of the mean of all runs; false: of the worst
 };
 
-// Throws InputError "name:line: ..." for text that is not of this form, or names an experiment,
-// variant or metric that is not there, or another unit than the metric's.
+// Throws InputError "name:line: ..." for text that is not of this form, for an unknown experiment,
+// variant or metric, and for a unit other than the metric's.
 std::vector<GateLimit> ParseGateLimits(const EmbeddedYaml& file);
 
-// The limits of an experiment in gate_limits.yaml; none for most.
+// Returns the limits of an experiment in gate_limits.yaml; none for most.
 std::vector<GateLimit> GateLimitsOf(const std::string& experiment);
 
 struct GateCheck {
   GateLimit limit;
   std::optional<double> figure;  // the worst of the runs, or their mean
-  std::string reason;            // why there is none
+  std::string reason;            // why there is no figure
   bool kept = false;
 };
 
-// Every limit that is about a sequence and a variant of the plan, with the figure of its runs. A
-// run without one breaks the limit. Limits on sequences that are not there are left out.
+// Returns every limit of a sequence and a variant of the plan, with the figure of its runs. A run
+// without one exceeds the limit. Limits of missing sequences are left out.
 std::vector<GateCheck> CheckGate(const std::vector<GateLimit>& limits,
                                  const Plan& plan,
                                  const std::vector<JobResult>& results);
 
-// A section of a Markdown document: every limit with the figure, broken ones first.
+// A section of a Markdown document: every limit with the figure, exceeded ones first.
 std::string FormatGate(const std::vector<GateCheck>& checks);
 
 }  // namespace plumbline

@@ -11,22 +11,22 @@
 
 namespace plumbline {
 
-// What came of one experiment of a group, whose files are in a folder of its name.
+// Result of one experiment of a group, with its files in a folder of its name.
 struct GroupPart {
   std::string name, help;
-  std::string trouble;  // why nothing of it could be run; empty: it was
+  std::string trouble;  // why nothing could be run; empty: it was run
   std::size_t runs = 0, failed = 0;
-  std::vector<std::string> missing;   // sequences that are not there
+  std::vector<std::string> missing;   // missing sequences
   std::vector<std::string> failures;  // "euroc/MH_01_easy, points, run 2: why"
 };
 
-// The part of the report that stands for an experiment whose jobs have results.
+// Returns the part of the report of an experiment whose jobs have results.
 GroupPart SummarizePart(const Plan& plan, const std::vector<JobResult>& results);
 
-// Writes results.json and timing.json, the lists of the parts one behind the other, table.md, all
-// their tables, and table.html, a page that leads to theirs and says what failed. An experiment
-// that could not be run is in results.json as a row with a reason. Throws InputError when a file
-// cannot be written.
+// Writes results.json and timing.json, the concatenated lists of the parts, table.md, all their
+// tables, and table.html, a page with links to theirs and a list of failures. An experiment that
+// could not be run is in results.json as a row with a reason. Throws InputError if a file cannot be
+// written.
 void WriteGroupReport(const std::filesystem::path& out,
                       const std::string& name,
                       const std::string& help,

@@ -8,10 +8,10 @@ namespace plumbline {
 
 std::span<const FigureMetric> InitializationTimingMetrics();
 
-// How long the parts of a start by factorization take, and how well it finds the centres of the
-// cameras, over `repeats` simulated windows of m = 3 frames with 200, 300 and 500 points each, a
-// fifth of them to be interpolated. Sequences: points/<count>. nullopt when `progress(done, total)`
-// returns false.
+// Measures the times of the parts of initialization by factorization, and the accuracy of its
+// camera centres, over `repeats` simulated windows of m = 3 frames with 200, 300 and 500 points
+// each, a fifth of them to be interpolated. Sequences: points/<count>. nullopt if `progress(done,
+// total)` returns false.
 std::optional<TimedFigures> TimeInitialization(
     int repeats, const std::function<bool(std::size_t, std::size_t)>& progress);
 

@@ -14,28 +14,28 @@
 
 namespace plumbline {
 
-// A program to be run for a job.
+// A program to run for a job.
 struct JobTask {
   std::vector<std::string> command;  // program and arguments
-  std::filesystem::path folder;      // is there; its log.txt gets what the program says
-  std::string name;                  // for people
+  std::filesystem::path folder;      // existing folder; its log.txt gets the output of the program
+  std::string name;                  // for display
   std::string key;                   // Job::key
-  double limit_s = 0;                // what takes longer is killed
-  std::optional<int> memory_mb;      // the most it may have; nullopt: as much as there is
-  bool exclusive = false;            // nothing else runs beside it
+  double limit_s = 0;                // longer tasks are killed
+  std::optional<int> memory_mb;      // memory limit; nullopt: none
+  bool exclusive = false;            // true: nothing else runs concurrently
 };
 
-// How a task ended.
+// End of a task.
 struct TaskEnd {
   int code = 0;
   std::optional<int> signal;
-  std::string trouble;      // why it did not come to an end of its own: "no end after 60 s"
-  bool by_machine = false;  // the trouble is the machine's: elsewhere it may go well
+  std::string trouble;      // reason of an abnormal end: "no end after 60 s"
+  bool by_machine = false;  // true if the machine is at fault: a retry elsewhere may succeed
   double seconds = 0;
 };
 
-// Where the programs of jobs run: on this machine, or on those of a cluster. Tasks are told apart
-// by numbers that the caller gives.
+// Executes the programs of jobs: on this machine, or on those of a cluster. Tasks are identified by
+// numbers of the caller.
 class JobExecutor {
  public:
   JobExecutor() = default;
@@ -43,22 +43,22 @@ class JobExecutor {
   JobExecutor& operator=(const JobExecutor&) = delete;
   virtual ~JobExecutor() = default;
 
-  // Whether a task of this kind may be added now.
+  // Returns true if a task of this kind may be added now.
   virtual bool HasRoom(const JobTask& task) const = 0;
   virtual void Add(std::size_t id, const JobTask& task) = 0;
-  // Called after a number of Add: what was added is to start now.
+  // Called after a number of Add: starts the added tasks.
   virtual void Submit() = 0;
   struct Ended {
     std::size_t id = 0;
     TaskEnd end;
   };
-  // Those that have ended since the last call. Does not wait.
+  // Returns the tasks that have ended since the last call. Does not wait.
   virtual std::vector<Ended> Poll() = 0;
-  // How many are running, as far as is known.
+  // Returns the number of running tasks, as far as known.
   virtual std::size_t Running() const = 0;
-  // How long to wait between two calls of Poll.
+  // Returns the time to wait between two calls of Poll.
   virtual std::chrono::milliseconds PollEvery() const = 0;
-  // What remains when the caller goes away in the middle, for people; empty: nothing.
+  // Returns a description of the tasks that continue if the caller is interrupted; empty: none.
   virtual std::string WhatGoesOn() const = 0;
 };
 
@@ -72,7 +72,8 @@ std::string NoEndAfter(double limit_s);
 // "out of memory (limit 100 MB)"; without a limit: "out of memory".
 std::string OutOfMemory(std::optional<int> limit_mb);
 
-// On this machine, so many at once; an exclusive one alone. Destroyed, it kills what still runs.
+// Runs up to a given number of tasks at once on this machine; an exclusive one alone. The
+// destructor kills running tasks.
 class LocalExecutor : public JobExecutor {
  public:
   explicit LocalExecutor(int jobs) : jobs_(static_cast<std::size_t>(jobs)) {}

@@ -14,30 +14,30 @@
 
 namespace plumbline {
 
-// Adds the figures of the line map of a run (metrics line_*): its lines.obj, brought into the world
-// of the ground truth as its trajectory is, against lines.csv and surfaces.csv of the sequence
-// (line_map_error.h), at the tolerance of 5 cm. Where that is not possible, the reasons.
+// Adds the figures of the line map of a run (metrics line_*): its lines.obj, aligned to the world
+// of the ground truth like its trajectory, against lines.csv and surfaces.csv of the sequence
+// (line_map_error.h), at the tolerance of 5 cm. If that is impossible, the reasons.
 void AddLineMapFigures(const std::filesystem::path& sequence,
                        const std::filesystem::path& run,
                        RunFigures& figures);
 
-// Adds the same of the line landmarks of map.plb with the ends that they have there (metrics
-// map_line_*), not of what the end of a run makes of the keyframes' segments. map_line_error: how
-// far the further end is from the true line that it is from least, median of all landmarks.
+// Adds the same for the line landmarks of map.plb with their own ends (metrics map_line_*), not for
+// the line map that a run makes at its end from the keyframes' segments. map_line_error: the
+// distance of the further end from the nearest true line, median of all landmarks.
 void AddMapLineFigures(const std::filesystem::path& sequence,
                        const std::filesystem::path& run,
                        RunFigures& figures);
 
-// Whether one of these metrics is one of AddMapLineFigures.
+// Returns true if one of these metrics is one of AddMapLineFigures.
 bool AsksForMapLines(std::span<const std::string> metrics);
 
-// What brings the map of a run into the world of the ground truth: the motion that its trajectory
-// is aligned by (with one camera a similarity, since such a map has a scale of its own), and the
-// turn after which poses agree best (AlignPoses).
+// Returns the alignment of the map of a run to the world of the ground truth: the alignment of its
+// trajectory (with one camera a similarity, since the scale of its map is arbitrary), and the
+// rotation for which poses agree best (AlignPoses).
 Similarity3 TrueWorldFromRun(const TrajectoryError& trajectory);
 
-// The lines of a file of a run (ReadLineMap) in the world of the ground truth. Throws InputError
-// where they cannot be read.
+// Returns the lines of a file of a run (ReadLineMap) in the world of the ground truth. Throws
+// InputError if they cannot be read.
 std::vector<Segment3> ReadLinesInTrueWorld(const std::filesystem::path& file,
                                            const TrajectoryError& trajectory);
 

@@ -13,23 +13,23 @@
 
 namespace plumbline {
 
-// The starts of a variant beside those of its reference (ReferenceOf) at the same first frames of
-// the same runs.
+// Comparison of the starts of a variant with those of its reference (ReferenceOf) at the same first
+// frames of the same runs.
 struct PairedStarts {
   std::optional<std::size_t> sequence;  // in the plan; nullopt: all
   std::size_t variant = 0;
-  int starts = 0;    // that both tried
-  int possible = 0;  // of these, those that are not known to be impossible (IsPossible)
+  int starts = 0;    // tried by both
+  int possible = 0;  // of these, those not known to be impossible (IsPossible)
   // Of the variant, among the possible ones; wrong ones among all.
   int right = 0, late = 0, waiting = 0, wrong = 0;
-  // Right ones where the reference has none, and the reverse.
+  // Right ones not right for the reference, and the reverse.
   int right_alone = 0, reference_alone = 0;
-  // Of the exact sign test: how often, by chance alone, those two differ at least as much. The
-  // starts of a sequence are taken for independent, which neighbours are not quite: a small value
-  // of one sequence alone does not decide.
+  // Of the exact sign test: the probability that, by chance alone, those two differ at least as
+  // much. The starts of a sequence count as independent, which neighbours are not quite: a small
+  // value of one sequence alone is not conclusive.
   double p = 1;
-  // By how many percent points more of the starts are right than of the reference; over all the
-  // mean over places (PlaceOf), with its 95 % interval by Student's t.
+  // Difference of the shares of right starts to the reference, percentage points; over all the mean
+  // over places (PlaceOf), with its 95 % interval by Student's t.
   std::optional<double> gain{}, gain_low{}, gain_high{};
   int places = 0;  // over all: with a gain
 };
@@ -38,20 +38,20 @@ struct PairedStarts {
 // (McNemar's test of discordant pairs); 1 without any.
 double SignTestP(int a, int b);
 
-// The starts of each variant that has a reference, and of those that are one: by sequence, then
+// Returns the starts of each variant with a reference, and of the references: by sequence, then
 // over all.
 std::vector<PairedStarts> PairStarts(const Plan& plan, const StartsByJob& starts);
 
 // Rows of the list of results: the metrics right_alone, reference_right_alone, sign_test_p, gain,
 // gain_low, gain_high, and over all also right, possible_or_unknown, late, waiting, wrong. The
-// sequence of those over all is "all_places"; there is no seed.
+// sequence of the rows over all is "all_places"; there is no seed.
 std::vector<FigureRow> FiguresOfPairs(const Plan& plan, const std::vector<PairedStarts>& pairs);
 
-// A table of them: the rows of its cells, the first one being the heads of the columns.
+// A table of them: the rows of its cells, the first row being the headings of the columns.
 std::vector<std::vector<std::string>> CellsOfPairs(const Plan& plan,
                                                    const std::vector<PairedStarts>& pairs);
 
-// What the columns mean, in one line.
+// Returns the meaning of the columns, in one line.
 std::string PairsNote();
 
 // A section of a Markdown document; empty without pairs.

@@ -10,18 +10,18 @@
 
 namespace plumbline {
 
-// The tables and figures of the two papers that runs can make, named after them: rippl-* of Lee and
-// Hwang 2019, cutting-* of Zhao and Vela 2018. Loops stay open, as in the papers. Variants have the
-// papers' names; what the papers print stands in printed/*.yaml under the same names. Beside the
-// papers' sequences there are others that stand in for those that are not at hand.
+// The tables and figures of the two papers that are reproducible by runs, named after them: rippl-*
+// of Lee and Hwang 2019, cutting-* of Zhao and Vela 2018. Loops stay open, as in the papers.
+// Variants have the papers' names; the papers' figures are in printed/*.yaml under the same names.
+// In addition to the papers' sequences there are others that replace unavailable ones.
 std::vector<Experiment> PaperExperiments();
 
-// A few minutes on rendered worlds and on what recorded sequences there are, whose figures must
-// keep the limits of gate_limits.yaml (gate.h).
+// A few minutes on rendered worlds and on the available recorded sequences, whose figures must keep
+// the limits of gate_limits.yaml (gate.h).
 Experiment GateExperiment();
 
-// The maps of lines of three worlds, in several runs: seeds of one world differ by a tenth, which
-// their mean does not.
+// Line maps of three worlds, in several runs: single seeds of one world differ by a tenth, their
+// mean does not.
 Experiment LineGateExperiment();
 
 std::span<const ExperimentGroup> ExperimentGroups();

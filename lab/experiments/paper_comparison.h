@@ -19,11 +19,11 @@ struct ComparedTable {
   std::vector<std::string> variants;
   struct Row {
     std::string sequence;
-    std::vector<std::string> printed, ours;  // one for each variant; empty: nothing of that kind
-    std::string runs;  // of ours: RunsText, by variant where they differ; or what to call
+    std::vector<std::string> printed, ours;  // one for each variant; empty: no figures of that kind
+    std::string runs;  // of ours: RunsText, by variant if they differ; or the command to call
   };
-  // The rows of the paper first, "-" and the command that would fill them where the sequence is not
-  // there; then our other sequences.
+  // The rows of the paper first, with "-" and the command to fill them if the sequence is missing;
+  // then our other sequences.
   std::vector<Row> rows;
 };
 
@@ -32,16 +32,16 @@ struct PaperComparison {
   std::vector<PrintedStatement> statements;
 };
 
-// The printed figures of the plan's experiment beside those of its runs. Nothing where no paper is
-// reproduced. A sequence that is a part of the paper's is named as such: its figures are not those
-// of the whole.
+// Returns the printed figures of the plan's experiment beside those of its runs; empty if no paper
+// is reproduced. A sequence that is a part of the paper's is named so: its figures are not those of
+// the whole.
 PaperComparison CompareWithPaper(const Plan& plan, const ResultTable& table);
 
-// What stands above the columns of a table, and in those of a row.
+// Headings of the columns of a table, and cells of a row.
 std::vector<std::string> ComparisonHeader(const ComparedTable& table);
 std::vector<std::string> ComparisonCells(const ComparedTable& table, const ComparedTable::Row& row);
 
-// Sections for the documents of results.h; empty for nothing.
+// Sections for the documents of results.h; empty for none.
 std::string FormatComparisonMarkdown(const PaperComparison& comparison);
 std::string FormatComparisonHtml(const PaperComparison& comparison);
 

@@ -10,8 +10,8 @@
 
 namespace plumbline {
 
-// The plots of Experiment::paper_plot, of what is in the folders of the runs: the first run of each
-// variant on each sequence that has one. What cannot be read is left out.
+// Returns the plots of Experiment::paper_plot, from the folders of the runs: the first run of each
+// variant on each sequence that has one. Unreadable runs are left out.
 std::vector<PagePlot> PaperPlots(const Plan& plan, const std::vector<JobResult>& results);
 
 // Figure 8 of the first paper. One panel with the mean error of the relative position (runs without
@@ -28,8 +28,8 @@ Figure PathPlot(const Plan& plan, const std::vector<JobResult>& results, std::si
 Figure RevisitPlot(const Plan& plan, const Job& job);
 
 // Figure 5 of the second paper: the image of a keyframe in the middle of the run with the measured
-// lines green and the pieces of them that cutting leaves, projected, red. An SVG with the image in
-// it. Throws InputError where images or map cannot be read, or there is no keyframe with lines.
+// lines green and their projected cut pieces red. An SVG with the image in it. Throws InputError if
+// images or map cannot be read, or there is no keyframe with lines.
 std::string CutLinePlot(const Plan& plan, const Job& job);
 
 }  // namespace plumbline

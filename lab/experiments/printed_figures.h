@@ -10,7 +10,7 @@
 
 namespace plumbline {
 
-// A YAML file of this folder that became part of the library.
+// A YAML file of this folder, embedded in the library.
 struct EmbeddedYaml {
   const char* name;  // "printed/rippl.yaml"
   const char* text;
@@ -18,29 +18,29 @@ struct EmbeddedYaml {
 const std::vector<EmbeddedYaml>& PrintedFiles();
 const EmbeddedYaml& GateLimitsFile();
 
-// A cell of a printed table: a number, or the word that stands there instead ("ambiguity", "-").
+// A cell of a printed table: a number, or a word instead ("ambiguity", "-").
 struct PrintedCell {
   std::optional<double> value;
   std::string text;  // as printed
 };
 
 struct PrintedRow {
-  std::string sequence;            // as SequenceChoice::paper names it
+  std::string sequence;            // name in SequenceChoice::paper
   std::vector<PrintedCell> cells;  // one for each variant
 };
 
-// A table of a paper, or the part of it that is about one figure.
+// A table of a paper, or its part about one figure.
 struct PrintedTable {
   std::string experiment;
   std::string paper;  // "Lee and Hwang, ICCV 2019"
   std::string where;  // "Table 1, page 7"
   std::string metric, unit;
-  std::string note;  // what keeps ours from being the same; may be empty
+  std::string note;  // known differences from ours; may be empty
   std::vector<std::string> variants;
   std::vector<PrintedRow> rows;
 };
 
-// What a paper says of a figure in words, or of a plot whose values it does not print.
+// A paper's statement about a figure in words, or about a plot without printed values.
 struct PrintedStatement {
   std::string experiment, paper, where, text;
 };
@@ -51,14 +51,14 @@ struct PrintedFigures {
 };
 
 // Reads one file. Throws InputError "name: ..." for text that is not of this form: an unknown key,
-// a row whose cells are not as many as the variants.
+// a row with more or fewer cells than variants.
 PrintedFigures ParsePrintedFigures(const EmbeddedYaml& file);
 
-// Those of all files that belong to an experiment, in their order.
+// Returns the figures of an experiment in all files, in their order.
 PrintedFigures PrintedFiguresOf(std::string_view experiment);
 
-// Times that number of `unit` makes one of `other`: 10 from cm to mm; nullopt where they do not
-// measure the same.
+// Returns the factor from `unit` to `other`: 10 from cm to mm; nullopt if they measure different
+// quantities.
 std::optional<double> UnitFactor(std::string_view unit, std::string_view other);
 
 }  // namespace plumbline

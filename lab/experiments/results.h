@@ -12,14 +12,14 @@
 
 namespace plumbline {
 
-// Which metrics: those that same bytes give again, or times and the like.
+// Kind of metrics: reproducible ones, or times and the like.
 enum class MetricKind { kRepeatable, kTiming };
 
-// The metrics of an experiment of one kind, in its order, those of plots alone at the end. An ATE
-// is followed by the coverage, always: one without the other says little.
+// Returns the metrics of an experiment of one kind, in its order, those only of plots at the end.
+// An ATE is always followed by the coverage, without which it means little.
 std::vector<const Metric*> MetricsOf(const Experiment& experiment, MetricKind kind);
 
-// A figure of a run, or why there is none.
+// A figure of a run, or the reason why there is none.
 struct ResultRow {
   std::string sequence, variant;
   int seed = 0;
@@ -34,7 +34,7 @@ std::vector<ResultRow> CollectResults(const Plan& plan,
                                       MetricKind kind);
 
 // A JSON list, one figure a line: {"experiment", "sequence", "variant", "seed", "metric", "value",
-// "unit"}; where value is null, "reason". Behind the figures of runs stand those of `over_runs`.
+// "unit"}; if value is null, "reason". The figures of runs are followed by those of `over_runs`.
 std::string FormatResults(const std::string& experiment,
                           const std::vector<ResultRow>& rows,
                           const std::vector<FigureRow>& over_runs = {});

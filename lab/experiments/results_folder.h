@@ -6,9 +6,10 @@
 
 namespace plumbline {
 
-// Throws InputError, which names the file, when the folder for the tables of an experiment, or of a
-// group, has one that these would replace and no experiment wrote. Those of an earlier call are
-// known by its results.json, which is written before the others. Touches nothing.
+// Throws InputError, which names the file, if the folder for the tables of an experiment, or of a
+// group, has a file that would be replaced and was not written by an experiment. Those of an
+// earlier call are recognized by its results.json, which is written before the others. Changes
+// nothing.
 void CheckResultsFolder(const std::filesystem::path& out);
 
 }  // namespace plumbline

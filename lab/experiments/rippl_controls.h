@@ -6,10 +6,10 @@
 
 namespace plumbline {
 
-// The start of the first paper (Lee and Hwang 2019, section 2; preset rippl) with each of its parts
-// left out, by more frames and fewer points, and beside two views. Each variant differs in one
-// thing from the one that it is compared with (docs/experiments.md says what each measures), but
-// for two_view, which is another method.
+// Initialization of the first paper (Lee and Hwang 2019, section 2; preset rippl) with each of its
+// parts left out, with more frames and fewer points, and two-view initialization. Each variant
+// differs in one thing from its reference (docs/experiments.md lists the measured effects), except
+// two_view, which is another method.
 Experiment RipplControls();
 
 }  // namespace plumbline

@@ -9,9 +9,9 @@
 
 namespace plumbline {
 
-// The final trajectory of a run beside the ground truth of its sequence, aligned as the run's own
-// summary has it: with one camera with a free scale. nullopt without ground truth, or where the run
-// has no pose. Throws InputError when a file cannot be read.
+// Compares the final trajectory of a run with the ground truth of its sequence, aligned as in the
+// run's own summary: with one camera with a free scale. nullopt without ground truth, or if the run
+// has no pose. Throws InputError if a file cannot be read.
 std::optional<TrajectoryError> CompareRunWithTruth(const std::filesystem::path& sequence,
                                                    const std::filesystem::path& run);
 

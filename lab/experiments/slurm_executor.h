@@ -16,31 +16,31 @@
 namespace plumbline {
 
 struct SlurmOptions {
-  // For scripts and notes of what was submitted; on a file system that all nodes share, as are
-  // program, data and folders of tasks.
+  // For scripts and notes of submitted tasks; on a file system shared by all nodes, as are program,
+  // data and folders of tasks.
   std::filesystem::path folder;
   std::vector<std::string> sbatch;  // further arguments of sbatch: "--partition=long"
 };
 
-// On a cluster with Slurm: what was added between two calls of Submit goes to the queue as job
-// arrays, up to 1000 tasks each, exclusive ones in arrays of their own with --exclusive. A task
-// runs with two processors (--cpus-per-task) and the memory it may have (--mem), and is not
-// requeued by Slurm itself: who called tries again.
+// Executes on a cluster with Slurm: tasks added between two calls of Submit are queued as job
+// arrays, up to 1000 tasks each, exclusive ones in arrays of their own with --exclusive. A task has
+// two processors (--cpus-per-task) and its limit of memory (--mem), and is not requeued by Slurm
+// itself: the caller retries.
 //
-// Each task leaves its exit code in its folder (end.txt), where Poll finds it; Slurm is asked only
-// what became of those that leave none. What is submitted is noted in `folder` before, so that an
-// executor that is made after the collector was killed finds the tasks again, by folder and key,
-// whether they wait, run or have ended, and does not submit them anew; one of another key that
-// still runs in the folder of a task is cancelled first. Destroyed, it leaves the queue alone.
+// Each task leaves its exit code in its folder (end.txt), where Poll finds it; Slurm is queried
+// only for tasks without one. Submissions are noted in `folder` before, so that an executor made
+// after its predecessor was killed finds the tasks again, by folder and key, whether they wait, run
+// or have ended, and does not submit them again; a task of another key that still runs in the same
+// folder is cancelled first. The destructor does not change the queue.
 class SlurmExecutor : public JobExecutor {
  public:
-  // Throws InputError where the folder cannot be used or a note in it not be read.
+  // Throws InputError if the folder cannot be used or a note in it cannot be read.
   explicit SlurmExecutor(SlurmOptions options);
 
   bool HasRoom(const JobTask&) const override { return true; }
-  // Throws InputError when Slurm cannot be asked.
+  // Throws InputError if Slurm cannot be queried.
   void Add(std::size_t id, const JobTask& task) override;
-  // Throws InputError with what sbatch says when it refuses.
+  // Throws InputError with the message of sbatch if it refuses.
   void Submit() override;
   std::vector<Ended> Poll() override;
   std::size_t Running() const override;
@@ -49,7 +49,7 @@ class SlurmExecutor : public JobExecutor {
 
  private:
   using Clock = std::chrono::steady_clock;
-  // What is known of a task by name of its batch and index in it.
+  // Identifies a task by name of its batch and index in it.
   using Place = std::pair<std::string, int>;
   struct State {
     std::string name;  // "RUNNING"
@@ -66,7 +66,7 @@ class SlurmExecutor : public JobExecutor {
     std::size_t id = 0;
     JobTask task;
     Place place;
-    std::optional<Clock::time_point> gone;  // since when Slurm says that it has ended
+    std::optional<Clock::time_point> gone;  // time since which Slurm reports its end
   };
 
   void ReadNotes();
@@ -79,7 +79,7 @@ class SlurmExecutor : public JobExecutor {
 
   SlurmOptions options_;
   std::map<std::string, Batch> batches_;  // by name
-  std::map<Place, State> states_;         // as of the last question
+  std::map<Place, State> states_;         // as of the last query
   std::optional<Clock::time_point> asked_, answered_;
   std::vector<std::pair<std::size_t, JobTask>> added_;
   std::vector<Open> open_;

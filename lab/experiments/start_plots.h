@@ -11,9 +11,9 @@
 namespace plumbline {
 
 // Plots of starts, a panel for each pool:
-//   start_time     share of the possible starts that have a right map, over the seconds of video
-//   start_errors   share of the maps below an error: rotation, direction, inverse depth
-// An experiment with an abscissa gets the metrics of its plots over that instead, one plot each.
+//   start_time    share of the possible starts that have a right map, over the seconds of video
+//   start_errors  share of the maps below an error: rotation, direction, inverse depth
+// An experiment with an abscissa gets plots of its metrics over it instead, one each.
 std::vector<PagePlot> StartPlots(const Plan& plan, const StartsByJob& starts);
 
 }  // namespace plumbline

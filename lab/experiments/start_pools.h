@@ -13,10 +13,10 @@
 
 namespace plumbline {
 
-// The starts of each job of a plan (RunCommandKind::kStarts), in its order; none where it failed.
+// The starts of each job of a plan (RunCommandKind::kStarts), in its order; none if it failed.
 using StartsByJob = std::vector<std::vector<StartRecord>>;
 
-// Reads starts.csv of the jobs that have figures. Throws InputError when one cannot be read.
+// Reads starts.csv of the jobs with figures. Throws InputError if one cannot be read.
 StartsByJob ReadStartsByJob(const Plan& plan, const std::vector<JobResult>& results);
 
 // The starts of two variants at the same first frames of one run.
@@ -33,9 +33,9 @@ struct PooledResults {
   Plan plan;
   std::vector<JobResult> results;
 };
-// The same plan and results, and behind them each pool as if it were a sequence of its own, with
-// the figures of all its starts together. Pools without a sequence in the plan are left out; where
-// a run of one of its sequences failed, that of the pool failed too.
+// Returns the plan and results with each pool appended as if it were a sequence of its own, with
+// the figures of all its starts together. Pools without a sequence in the plan are left out; a run
+// of a pool failed if one of its sequences' did.
 PooledResults WithPools(const Plan& plan,
                         const std::vector<JobResult>& results,
                         const StartsByJob& starts);

@@ -12,7 +12,7 @@
 namespace plumbline {
 
 enum class Centre { kMedian, kMean };
-// Means where failures are tolerated, as the second paper has it.
+// Means if failures are tolerated, as in the second paper.
 Centre CentreOf(const Experiment& experiment);
 
 struct Spread {
@@ -25,7 +25,7 @@ std::optional<Spread> SpreadOf(std::vector<double> values, Centre centre = Centr
 struct TableCell {
   std::optional<Spread> spread;
   int missing = 0;    // runs without a value
-  bool best = false;  // of the variants on this sequence
+  bool best = false;  // true if the best of the variants on this sequence
 };
 
 struct TableRow {
@@ -33,11 +33,11 @@ struct TableRow {
   int runs = 0;                           // all
   int failed = 0;                         // of these, without a result, or lost (see MakeTable)
   int same = 0;                           // of these, with the trajectory of an earlier run
-  double coverage = 0;                    // median over the runs that count, percent; 0 without any
+  double coverage = 0;                    // median over the counted runs, percent; 0 without any
   std::vector<TableCell> cells;           // one for each column
 };
 
-// Why runs failed, or tries of runs that went well in the end.
+// Reason of failed runs, or of failed tries of runs that succeeded later.
 struct Failure {
   std::size_t sequence = 0, variant = 0;
   int runs = 0;  // or tries
@@ -54,25 +54,26 @@ struct ResultTable {
 
 // Medians and ranges over the runs of each variant on each sequence.
 //
-// Runs with the same trajectory count once, but in times, which differ. Best is the least (or
-// greatest) median as printed. Only those compete that have as many values as any other variant on
-// this sequence and cover at most one percent of the frames less: an error is not small because the
-// difficult part was left out. Where all are equal, none is best. With
-// Experiment::tolerated_failures means, and nothing of variants that fail more often.
+// Runs with the same trajectory count once, except in times, which differ. Best is the least (or
+// greatest) median as printed. Only variants compete with as many values as any other on this
+// sequence and at most one percent less coverage: a small error may be due to a skipped difficult
+// part. If all are equal, none is best. With Experiment::tolerated_failures means, and no values of
+// variants that fail more often.
 ResultTable MakeTable(const Plan& plan, const std::vector<JobResult>& results, MetricKind kind);
 
-// "4.21 (4.05-4.33)"; "4.21 (4.05-4.33), 2 without" where runs have a result, but not this figure;
-// "-" where none has it.
+// Returns "4.21 (4.05-4.33)"; "4.21 (4.05-4.33), 2 without" if runs have a result, but not this
+// figure; "-" if none has it.
 std::string CellText(const TableRow& row, const TableCell& cell, const Metric& metric);
-// How many runs count, are the same as others, have failed: "5", "1, 4 the same", "3, 2 failed".
+// Returns the numbers of counted, equal and failed runs: "5", "1, 4 the same", "3, 2 failed".
 std::string RunsText(const TableRow& row);
-// "ate [mm]"
+// Returns "ate [mm]".
 std::string ColumnTitle(const Metric& metric);
 
-// A document with the table, best cells bold, and what failed or is missing.
+// Returns a document with the table, best cells bold, and all failed or missing runs.
 std::string FormatMarkdown(const Plan& plan, const ResultTable& table);
 
-// One sentence for each failure and each try that failed: "failed: euroc/a, points, 2 runs: why".
+// Returns one sentence for each failure and each failed try: "failed: euroc/a, points, 2 runs:
+// why".
 std::vector<std::string> FailureTexts(const Plan& plan, const ResultTable& table);
 
 }  // namespace plumbline

@@ -10,14 +10,14 @@
 
 namespace plumbline {
 
-// A table for other programs, as JSON; tools/results.py makes the documents' tables of it:
+// A table for other programs, as JSON; tools/results.py makes the documents' tables from it:
 //
-//   "help", "centre"  what the experiment shows; "mean" or "median" over the runs that count
+//   "help", "centre"  the experiment's purpose; "mean" or "median" over the counted runs
 //   "columns"         {"metric", "title"} of each
 //   "rows"            {"sequence", "variant", "runs", "cells"}: RunsText, and CellText by column
 //   "printed"         {"metric", "title", "note", "header", "rows"} of each printed table with our
 //                     figures beside it (ComparedTable)
-//   "missing"         sequences that were not there (Plan::missing)
+//   "missing"         missing sequences (Plan::missing)
 //   "failures"        FailureTexts
 std::string FormatTableList(const Plan& plan,
                             const ResultTable& table,

@@ -13,7 +13,7 @@
 
 namespace plumbline {
 
-// The variants against their references.
+// Comparison of the variants with their references.
 struct Comparisons {
   std::vector<PairedRatio> ratios;
   std::vector<PairedStarts> starts = {};  // of RunCommandKind::kStarts
@@ -27,9 +27,9 @@ struct PagePlot {
 // The style sheet of all pages of experiments.
 std::string_view TablePageStyle();
 
-// One page that needs nothing else, not even scripts: the tables with the best of each sequence
-// marked, the errors and the starts against a reference where there is one, what a paper has, the
-// plots, what the variants are, what failed and what is missing.
+// A self-contained page, without scripts: the tables with the best of each sequence marked, the
+// errors and the starts against a reference if there is one, the figures of a paper, the plots, a
+// description of the variants, failed and missing runs.
 std::string FormatPage(const Plan& plan,
                        const std::vector<ResultTable>& tables,
                        const std::vector<PagePlot>& plots,

@@ -11,13 +11,14 @@ namespace plumbline {
 
 // Lines in bundle adjustment under LineResidualKind::kProjectedEnds, for each parametrization.
 
-// Ends of a line and how they move with two points' coordinates.
+// Ends of a line as functions of two points' coordinates.
 struct PointEndsView {
   static constexpr int kDof = 6;
   Segment3 ends;
   Eigen::Vector3d direction;
 
-  // Derivative by the parameters of what changes by `by_start` and `by_end` with the ends.
+  // Derivative by the parameters of a quantity with derivatives `by_start` and `by_end` by the
+  // ends.
   Vector6d Row(const Eigen::Vector3d& by_start, const Eigen::Vector3d& by_end) const {
     Vector6d row;
     row << by_start, by_end;
@@ -25,7 +26,7 @@ struct PointEndsView {
   }
 };
 
-// A view of the ends of a line of four parameters, the ends at fixed parameters along it.
+// Ends of a line of four parameters, at fixed parameters along it.
 struct LineEndsView {
   static constexpr int kDof = 4;
   Segment3 ends;
@@ -64,13 +65,13 @@ struct BaProjectedTerms {
 extern template struct BaProjectedTerms<PointEndsView>;
 extern template struct BaProjectedTerms<LineEndsView>;
 
-// A line and where its ends lie along it.
+// A line and the parameters of its ends along it.
 struct LineWithEnds {
   OrthonormalLine line;
   LineInterval interval;
 };
 
-// Line: BaLine or BaLineLeft, whose parameters these are.
+// Line: BaLine or BaLineLeft, the owner of these parameters.
 template <class Line>
 struct BaProjectedLine : BaProjectedTerms<LineEndsView> {
   using State = LineWithEnds;
@@ -97,18 +98,18 @@ struct BaProjectedEnds : BaProjectedTerms<PointEndsView> {
   static State Retract(const State& state, const Vector6d& step) {
     return BaLineEnds::Retract(state, step);
   }
-  // An end that slides along the line changes its residuals by the noise of the measured lines
-  // alone. Steps along it are damped by as much as in BaLineEnds, so that ends drift instead of
-  // jumping to where the measured lines meet best: both to the same place, in the middle of what
-  // was measured. Nothing draws them back.
+  // An end that slides along the line changes its residuals only by the noise of the measured
+  // lines. Steps along it are damped as in BaLineEnds, so that ends drift instead of jumping to the
+  // point of best agreement of the measured lines: both to the same point, in the middle of the
+  // measurements. Nothing draws them back.
   static void HoldGauge(const View& view, LandmarkEquations<kDof>& equations) {
     BaLineEnds::HoldAlong(view.direction, equations);
   }
 };
 
 // One end of a line as a landmark of its own: with projected ends and a diagonal covariance, the
-// two ends of a segment share no residual, and its 6 x 6 block splits into two of 3 x 3. The loss
-// then is that of each end.
+// two ends of a segment share no residual, and its 6 x 6 block splits into two of 3 x 3. Each end
+// then has a loss of its own.
 struct BaLineEnd {
   static constexpr int kDof = 3;
   struct State {

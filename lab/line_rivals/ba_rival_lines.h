@@ -9,8 +9,8 @@ namespace plumbline {
 
 // Other parameters of lines in bundle adjustment, under the residual of BaLine.
 
-// A line by four parameters that turn it about the axes of the frame (PPL-SLAM). Undamped steps are
-// those of BaLine to first order; the damping looks at other diagonal entries, and the step is
+// A line by four parameters that rotate it about the axes of the frame (PPL-SLAM). Undamped steps
+// are those of BaLine to first order; the damping uses other diagonal entries, and the step is
 // taken along the arc.
 struct BaLineLeft : BaLine {
   static View MakeView(const State& state) {
@@ -49,9 +49,9 @@ struct BaLineEnds : BaMeasuredLine {
   static State Retract(const State& state, const Vector6d& step) {
     return {state.start + step.head<3>(), state.end + step.tail<3>()};
   }
-  // No residual notices an end that slides along the line. Information of the size that the end has
-  // across the line is added along it: a slide then is no longer free, and the rest of the step is
-  // what it was, since the equations ask for no slide (their g has no part along it).
+  // Residuals do not depend on an end that slides along the line. Information of the same size as
+  // that across the line is added along it: a slide then is determined, and the rest of the step
+  // unchanged, since the equations require no slide (their g has no part along it).
   static void HoldGauge(const View& view, LandmarkEquations<kDof>& equations) {
     HoldAlong(view.direction, equations);
   }

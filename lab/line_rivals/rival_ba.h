@@ -9,8 +9,8 @@
 
 namespace plumbline {
 
-// A kind of line in optimization. The residual decides about the cost at the minimum, the
-// parameters about the way there; docs/benchmarks.md compares their speed.
+// A kind of line in optimization. The residual determines the cost at the minimum, the parameters
+// the convergence; docs/benchmarks.md compares their speed.
 struct RivalLines {
   LineParametrization parametrization = LineParametrization::kPlucker;
   LineResidualKind residual = LineResidualKind::kObservedEnds;
@@ -18,12 +18,13 @@ struct RivalLines {
 
 // SolveLocalBa with another kind of line, by the same solver; the result is the same form of line.
 //
-// End points are blocks of 6: they begin at EndsOf(), the result has them where they have moved,
-// and the lines go through them. Nothing takes them back along their lines. Under projected ends
-// with diagonal covariances they are two landmarks a line, each with its own loss: their blocks
-// share nothing then. Other lines under projected ends have those of TrimmedEnds().
+// End points are blocks of 6: they begin at EndsOf(), the result has them at their final positions,
+// and the lines go through them. Nothing constrains them along their lines. Under projected ends
+// with diagonal covariances they are two landmarks a line, each with its own loss, since their
+// blocks then share nothing. Other lines under projected ends have those of TrimmedEnds().
 //
-// BugError for axes under projected ends, which hold no lines parallel; otherwise as SolveLocalBa.
+// BugError for axes under projected ends, which do not constrain lines to be parallel; otherwise as
+// SolveLocalBa.
 BaResult SolveRivalBa(const BaProblem& problem,
                       const LocalBaOptions& options,
                       const RivalLines& lines,

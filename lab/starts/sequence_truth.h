@@ -17,19 +17,19 @@
 
 namespace plumbline {
 
-// The truth of a recorded or rendered sequence that is also read as monocular.
+// Ground truth of a recorded or rendered sequence that is also read as monocular.
 //
-// Poses are those of the ground truth, or others where given, interpolated over gaps as wide as
-// ErrorOptionsFor allows for the data. Depth is the best there is: exact depth images of a rendered
-// world (mav0/depth0), those of an RGB-D sensor, or the points of the sequence's own stereo pairs,
-// measured in each frame by itself and known to 0.2 px at best.
+// Poses are those of the ground truth, or others if given, interpolated over gaps as wide as
+// ErrorOptionsFor allows for the data. Depth comes from the best source: exact depth images of a
+// rendered world (mav0/depth0), those of an RGB-D sensor, or the points of the sequence's own
+// stereo pairs, measured in each frame by itself with a deviation of 0.2 px at best.
 class SequenceTruth : public StartTruth {
  public:
-  //   mono        the sequence as monocular; must outlive this. Frames are numbered as there
-  //   rectifier   of its images
-  //   camera      as DatasetOptions::camera
-  //   poses       of the camera as delivered, in place of the ground truth; nullopt: that
-  // Throws InputError when the sequence cannot be opened.
+  //   mono       the sequence as monocular, which defines the frame numbers; must outlive this
+  //   rectifier  of its images
+  //   camera     as DatasetOptions::camera
+  //   poses      of the camera as delivered, replacing the ground truth; nullopt: the ground truth
+  // Throws InputError if the sequence cannot be opened.
   SequenceTruth(const Dataset& mono,
                 const Rectifier& rectifier,
                 const std::optional<std::string>& camera,

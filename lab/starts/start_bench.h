@@ -16,7 +16,7 @@
 
 namespace plumbline {
 
-// The options of a run that a start depends on.
+// The options of a run that affect a start.
 struct StartOptions {
   FeatureOptions features;
   InitializationOptions initialization;
@@ -28,21 +28,21 @@ void VisitFields(Visitor&& visit, StartOptions& o) {
   visit("initialization", o.initialization, "start of a monocular map");
 }
 
-// Which starts are tried, and when they are right.
+// Starts to try, and criteria of right ones.
 struct StartPlan {
   std::vector<int> frames;  // first frames, ascending
   double seconds = 2;       // of video until there must be a map
-  double patience = 6;      // of video until the initializer is given up, at least `seconds`
+  double patience = 6;      // of video until the attempt ends, at least `seconds`
   StartLimits limits;
   std::optional<Trajectory> poses = std::nullopt;                          // as of SequenceTruth
   std::function<void(const StartRecord&, const InitialMap&)> on_map = {};  // as of StartTask
 };
 
-// Every `every`-th frame from `from` on that has another frame behind it.
+// Returns every `every`-th frame from `from` on that has a successor.
 std::vector<int> EveryStart(std::size_t frames, int from, int every);
 
-// The frames from `first` on that were taken at most `patience` later; in time are those taken at
-// most `seconds` later.
+// Returns the frames from `first` on taken at most `patience` later; those taken at most `seconds`
+// later are in time.
 StartRange RangeOf(const Dataset& dataset, int first, double seconds, double patience);
 
 // Makes an initializer without frames.
@@ -53,8 +53,8 @@ struct StartResults {
   std::vector<double> add_ms;        // of every frame offered
 };
 
-// Tries all starts of a sequence, one after the other. Features are measured once for each frame,
-// however many starts see it; frames are kept while a start may need them.
+// Tries all starts of a sequence, one after the other. Features are extracted once for each frame,
+// however many starts use it; frames are kept while a start may need them.
 //
 //   mono       the sequence as monocular
 //   camera     as DatasetOptions::camera, for the truth

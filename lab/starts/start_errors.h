@@ -16,16 +16,16 @@
 
 namespace plumbline {
 
-// What a map may be off at most, and from how much parallax it may come.
+// Limits of the errors of a map, and its least parallax.
 struct StartLimits {
   double rotation_deg = 0.5;
   double direction_deg = 5;
   double depth = 0.1;       // relative inverse depth, median
-  double parallax_deg = 0;  // true, median; a map from less is wrong whatever its errors
+  double parallax_deg = 0;  // true, median; a map with less is wrong whatever its errors
 };
 
-// The median angle between the rays of two cameras to the same points, degrees, over the points
-// that both see; 0 where the second one sees less than a tenth of them, or less than ten.
+// Returns the median angle between the rays of two cameras to the same points, degrees, over the
+// points visible in both; 0 if the second one sees less than a tenth of them, or less than ten.
 //
 //   points     in the frame of camera a
 //   camera     that of both
@@ -33,20 +33,20 @@ double MedianParallaxDeg(const std::vector<Eigen::Vector3d>& points,
                          const Rigid3& b_from_a,
                          const RectifiedCamera& camera);
 
-// Compares a map with the true motion of its newest view against its first one, and with the true
-// depths at the first.
+// Compares a map with the true motion of its newest view relative to its first one, and with the
+// true depths at the first.
 //
-//   true_newest_from_first   nullopt: not known. Without translation no direction is right: 180
-//   degrees depth                    of the first view; nullptr: not known
+//   true_newest_from_first  nullopt: unknown. Without translation no direction is right (180)
+//   depth                   of the first view; nullptr: unknown
 //
-// Depths are compared where at least ten points have a true one.
+// Depths are compared if at least ten points have a true one.
 StartErrors CompareInitialMap(const InitialMap& map,
                               const std::optional<Rigid3>& true_newest_from_first,
                               const TrueDepth* depth,
                               const RectifiedCamera& camera);
 
-// Names of the limits that a map exceeds: "rotation direction depth parallax"; empty: it is right,
-// as far as the truth is known.
+// Returns the names of exceeded limits: "rotation direction depth parallax"; empty: the map is
+// right, as far as the truth is known.
 std::string ExceededLimits(const StartMap& map, const StartLimits& limits);
 
 }  // namespace plumbline

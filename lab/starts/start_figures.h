@@ -11,14 +11,14 @@
 
 namespace plumbline {
 
-// A start is possible where the true median parallax reaches this within the time.
+// A start is possible if the true median parallax reaches this within the time.
 inline constexpr double kPossibleParallaxDeg = 2;
 
-// Whether a map can be expected of a start; nullopt: the truth is not known.
+// Returns true if a start can give a map; nullopt if the truth is unknown.
 std::optional<bool> IsPossible(const StartRecord& record);
 
-// Figures of a set of starts, by name. Left out are those that nothing is known for, such as
-// `success` without any possible start.
+// Figures of a set of starts, by name. Unknown ones are left out, for example `success` without any
+// possible start.
 //
 //   starts, possible, wrong          how many; wrong among all starts
 //   late                             possible ones with a right map after the time
@@ -34,7 +34,8 @@ std::optional<bool> IsPossible(const StartRecord& record);
 // Those of maps are of all maps, wrong and late ones too.
 std::map<std::string, double, std::less<>> FiguresOf(std::span<const StartRecord> records);
 
-// The value that `share` of the values do not exceed (nearest rank); they must not be empty.
+// Returns the value that `share` of the values do not exceed (nearest rank); they must not be
+// empty.
 double Percentile(std::vector<double> values, double share);
 
 }  // namespace plumbline

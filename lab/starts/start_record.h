@@ -12,13 +12,13 @@
 
 namespace plumbline {
 
-// What came of an attempt to start a monocular map at a frame.
+// Result of an attempt to start a monocular map at a frame.
 enum class StartOutcome {
   kRight,     // a map within all limits
-  kLate,      // the same, but after the time
-  kWrong,     // a map beyond one of them, at any time
+  kLate,      // the same, after the time
+  kWrong,     // a map beyond a limit, at any time
   kWaiting,   // no map
-  kUnjudged,  // a map, but the true poses are not known
+  kUnjudged,  // a map, but the true poses are unknown
 };
 constexpr auto EnumNames(std::type_identity<StartOutcome>) {
   return std::array{std::pair{StartOutcome::kRight, "right"},
@@ -28,25 +28,25 @@ constexpr auto EnumNames(std::type_identity<StartOutcome>) {
                     std::pair{StartOutcome::kUnjudged, "unjudged"}};
 }
 
-// A map beside the truth. nullopt: the truth is not known.
+// Errors of a map. nullopt: the truth is unknown.
 struct StartErrors {
   std::optional<double> rotation_deg;   // of the newest view against the first
   std::optional<double> direction_deg;  // of the newest view's centre, seen from the first
   // Of the points with known true depth: |s / z_estimated - 1 / z_true| * z_true, median, and the
-  // share of points where it is above a fifth; s makes the median ratio 1. Infinite where most
+  // share of points for which it is above a fifth; s makes the median ratio 1. Infinite if most
   // points lie behind the camera.
   std::optional<double> depth;
   std::optional<double> depth_outliers;
   int compared = 0;  // points
 };
 
-// The map that an attempt gave.
+// Map of a successful attempt.
 struct StartMap {
   int frames = 0;                      // offered until then, the reference among them
   double seconds = 0;                  // of video until then
   int reference = 0, newest = 0;       // first and last view, frames of the sequence
-  std::optional<double> parallax_deg;  // the true one between these, median
-  double estimated_parallax_deg = 0;   // as the method says
+  std::optional<double> parallax_deg;  // true parallax between these, median
+  double estimated_parallax_deg = 0;   // as reported by the method
   int points = 0, lines = 0;
   StartErrors errors;
 };
@@ -55,18 +55,18 @@ struct StartMap {
 struct StartRecord {
   int frame = 0;  // the first one offered
   StartOutcome outcome = StartOutcome::kWaiting;
-  // Waiting: what for, at the last frame. Wrong: the limits that are exceeded, "rotation depth".
+  // Waiting: the reason at the last frame. Wrong: the exceeded limits, "rotation depth".
   std::string reason;
   int offered = 0;                              // frames
   std::optional<double> greatest_parallax_deg;  // true, to any frame in the time; nullopt: unknown
   std::optional<StartMap> map;
 };
 
-// The records as CSV, one a line under a line of names; what is not known is empty. The same
-// records, the same bytes.
+// The records as CSV, one a line under a line of names; unknown values are empty. The same records
+// give the same bytes.
 std::string FormatStarts(const std::vector<StartRecord>& records);
 
-// Reads what FormatStarts wrote. Throws InputError with file and line.
+// Reads the output of FormatStarts. Throws InputError with file and line.
 std::vector<StartRecord> ReadStarts(const std::filesystem::path& path);
 
 }  // namespace plumbline

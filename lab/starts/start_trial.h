@@ -14,17 +14,17 @@
 
 namespace plumbline {
 
-// The frames of a sequence, as an initializer takes them; nullopt for one that cannot be read. Ids
-// are the numbers of the frames.
+// The frames of a sequence as input of an initializer; nullopt for an unreadable one. Ids are the
+// numbers of the frames.
 using StartFrames = std::function<std::optional<InitializationFrame>(int frame)>;
 
-// Frames begin, ..., end - 1 are offered until there is a map. A start is judged possible by those
-// before `in_time`, and one that gives its map later is late.
+// Frames begin, ..., end - 1 are offered until there is a map. Those before `in_time` determine
+// whether a start is possible; a map after them is late.
 struct StartRange {
   int begin = 0, in_time = 0, end = 0;
 };
 
-// What all starts of a sequence have in common.
+// Data common to all starts of a sequence.
 struct StartTask {
   const StartFrames& frames;
   const StartTruth& truth;
@@ -34,10 +34,10 @@ struct StartTask {
   std::function<void(const StartRecord&, const InitialMap&)> on_map = {};
 };
 
-// Tries to start a map at one frame, and holds what comes of it against the truth.
+// Tries to start a map at one frame, and compares the result with the truth.
 //
 // The newest view is compared with the first one of the map, which need not be the first frame
-// offered. Frames that cannot be read are left out.
+// offered. Unreadable frames are left out.
 //
 //   initializer    without frames
 //   milliseconds   the time of each call of Add is appended

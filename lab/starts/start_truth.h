@@ -10,7 +10,7 @@
 
 namespace plumbline {
 
-// What is known of a sequence beside the images that an initializer gets.
+// Ground truth of a sequence, beside the images given to an initializer.
 class StartTruth {
  public:
   virtual ~StartTruth() = default;
