@@ -48,7 +48,7 @@ struct KnownWarp {
 std::vector<KnownWarp> KnownWarps(int width, int height);
 
 // A warped image: pixels by bicubic interpolation plus white noise of two grey levels, so that the
-// noise is not repeated. 255 in `mask` if all of it is real.
+// noise is not repeated. 255 in `mask` for real pixels.
 struct WarpedImage {
   GrayImage image;
   GrayImage mask;

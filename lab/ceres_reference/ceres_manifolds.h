@@ -60,7 +60,7 @@ class TangentManifold final : public Base {
   }
 
  private:
-  // Row major, ones where row = column.
+  // Row major, ones on the diagonal.
   bool SetIdentity(int columns, double* jacobian) const {
     std::fill_n(jacobian, this->AmbientSize() * this->TangentSize(), 0.0);
     for (int i = 0; i < this->TangentSize(); ++i) jacobian[i * columns + i] = 1;

@@ -29,7 +29,7 @@ std::vector<GateLimit> GateLimitsOf(const std::string& experiment);
 struct GateCheck {
   GateLimit limit;
   std::optional<double> figure;  // the worst of the runs, or their mean
-  std::string reason;            // why there is no figure
+  std::string reason;            // reason without a figure
   bool kept = false;
 };
 

@@ -14,7 +14,7 @@ namespace plumbline {
 // Result of one experiment of a group, with its files in a folder of its name.
 struct GroupPart {
   std::string name, help;
-  std::string trouble;  // why nothing could be run; empty: it was run
+  std::string trouble;  // reason if nothing could be run; else empty
   std::size_t runs = 0, failed = 0;
   std::vector<std::string> missing;   // missing sequences
   std::vector<std::string> failures;  // "euroc/MH_01_easy, points, run 2: why"

@@ -20,7 +20,7 @@ std::optional<bool> IsPossible(const StartRecord& record);
 // Figures of a set of starts, by name. Unknown ones are left out, for example `success` without any
 // possible start.
 //
-//   starts, possible, wrong          how many; wrong among all starts
+//   starts, possible, wrong          numbers; wrong among all starts
 //   late                             possible ones with a right map after the time
 //   waiting                          possible ones without a map
 //   success, success_in_the_end      right ones of the possible, percent; and with late ones

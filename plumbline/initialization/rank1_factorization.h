@@ -67,8 +67,8 @@ class Rank1Matrix {
               std::span<const Rank1View> views,
               double min_epipole_angle);
 
-  const Rank1Rows& entries() const { return entries_; }  // 3m x n; 0 where unknown
-  const Rank1Rows& weights() const { return weights_; }  // m x n, 1 / variance; 0 where unknown
+  const Rank1Rows& entries() const { return entries_; }  // 3m x n; 0 if unknown
+  const Rank1Rows& weights() const { return weights_; }  // m x n, 1 / variance; 0 if unknown
 
  private:
   using Row = Eigen::Array<double, 1, Eigen::Dynamic>;

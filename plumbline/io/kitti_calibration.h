@@ -21,7 +21,7 @@ struct KittiCameras {
 //
 // body_from_left becomes the pose of the left camera in the frame of camera 0, which is that of the
 // ground truth, unless it is camera 0 itself. The cameras 2 and 3 are offset by some millimetres
-// vertically and in depth: such a pair is not `rectified`.
+// vertically and in depth: their pair is not `rectified`.
 //
 // Throws InputError "FILE:LINE: expected ..., found ..." for rows that are missing or malformed.
 Calibration ReadKittiCalibration(const std::filesystem::path& file,

@@ -18,7 +18,7 @@ namespace plumbline {
 // checksums of its own, so that files of any size are written and read with the memory of one
 // section. A preamble of bytes of the caller is followed by each section, little-endian:
 //
-//   bytes  what
+//   bytes  contents
 //   4      kind, of the caller
 //   4      0: as it is, 1: zstd
 //   8      size as stored

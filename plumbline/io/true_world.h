@@ -21,8 +21,8 @@ namespace plumbline {
 // "path:line: expected ..., found ..." for anything else, coincident ends included.
 std::vector<TrueLine> ReadTrueLines(const std::filesystem::path& path);
 
-// Writes such a file with the column kind, and with visible if the lines have it recorded (all or
-// none of them). Numbers are exact to the last bit; the same input gives the same bytes. Throws
+// Writes a file of lines with the column kind, and with visible if the lines have it recorded (all
+// or none of them). Numbers are exact to the last bit; the same input gives the same bytes. Throws
 // InputError if the file cannot be written.
 void WriteTrueLines(const std::filesystem::path& path, std::span<const TrueLine> lines);
 

@@ -34,7 +34,7 @@ struct FrameRecord {
   FrameId id;
   std::int64_t stamp_ns = 0;
   FrameStatus status = FrameStatus::kSkipped;
-  std::string reason;  // why it has no pose; else empty
+  std::string reason;  // reason without a pose; else empty
   // Map in which the pose was reported; it may have been merged into another since
   // (Atlas::Current).
   MapId map;

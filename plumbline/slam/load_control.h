@@ -15,10 +15,11 @@ struct Load {
   int tasks_waiting = 0;   // tasks that mapping has not begun, most of them keyframes
 };
 
-// Decides from frame to frame what is shed. A frame is late if it waited longer than the time
-// between two frames, or if a frame before it was left out. Several late frames in a row make the
-// run shed the next value of LoadLevel as well; several frames in a row that hardly waited undo one
-// step. If only mapping is behind, only mapping is shed. The decision depends only on the loads.
+// Decides from frame to frame how much work is shed. A frame is late if it waited longer than the
+// time between two frames, or if a frame before it was left out. Several late frames in a row make
+// the run shed the next value of LoadLevel as well; several frames in a row that hardly waited undo
+// one step. If only mapping is behind, only mapping is shed. The decision depends only on the
+// loads.
 class LoadControl {
  public:
   // Late frames in a row until more is shed; one left-out frame is enough.
@@ -28,7 +29,7 @@ class LoadControl {
   static constexpr double kCalmWait = 0.5;  // wait below which a frame hardly waited [intervals]
   static constexpr int kManyTasksWaiting = 3;
 
-  // Returns what to shed for the frame whose turn has come, at most kPoints.
+  // Returns the level of shedding for the next frame, at most kPoints.
   LoadLevel Next(const Load& load);
 
  private:

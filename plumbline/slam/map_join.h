@@ -7,7 +7,7 @@
 
 namespace plumbline {
 
-// Two merged maps: the remaining one and the one merged into it.
+// Two merged maps: the remaining map and the map merged into it.
 struct JoinedMaps {
   MapId kept;
   MapId gone;

@@ -88,7 +88,7 @@ class Pipeline {
     StageClock clock;  // times a raw frame since its arrival
     Execution::Clock::time_point arrival;
     double interval = 0;   // seconds since the previous frame; 0: unknown
-    std::string reason;    // why it has no images; else empty
+    std::string reason;    // reason without images; else empty
     bool dropped = false;  // true if it had images, and waited too long
 
     bool HasFrame() const { return reason.empty(); }
