@@ -19,7 +19,7 @@ namespace plumbline {
 // Pixel of each point in an image; nullopt for a point not visible.
 using TrackedPixels = std::vector<std::optional<Eigen::Vector2d>>;
 
-// Tracks points from image to image by the optical flow of Lucas and Kanade on pyramids (OpenCV).
+// Follows points from image to image by the optical flow of Lucas and Kanade on pyramids (OpenCV).
 // Each step is checked by tracking back.
 class KltTracks {
  public:
@@ -27,7 +27,7 @@ class KltTracks {
   // Begins with the points visible in the image.
   KltTracks(std::shared_ptr<const GrayImage> image, TrackedPixels places);
 
-  // Tracks the remaining points into the next image, which must have the same size. Points that
+  // Follows the remaining points into the next image, which must have the same size. Points that
   // leave it, are not found or do not return are lost for good. The work is shared with the helper,
   // with the same result. Cost: about 10 ms for 500 points in VGA.
   void Follow(std::shared_ptr<const GrayImage> image, HelperThread* helper = nullptr);

@@ -168,7 +168,7 @@ class InitializationWindow {
   InitialMatching matching_;
   HelperThread* helper_;
   std::optional<InitializationFrame> reference_;
-  // Tracks the reference's features, one point for each feature.
+  // Follows the reference's features, one point for each feature.
   KltTracks flow_;
   // Warps of their patches in the newest frame (patch_alignment.h).
   std::vector<Eigen::Matrix2d> warps_;

@@ -31,7 +31,7 @@ class SyntheticRun {
     return options;
   }
 
-  // Tracks the next frame.
+  // Steps to the next frame.
   TrackingResult Step(const SyntheticFrame& sensed) {
     const std::int64_t frame = next_++;
     const auto snapshot = mapping_.SnapshotFor(frame);
@@ -52,7 +52,7 @@ class SyntheticRun {
     mapping_.Submit(next_, start);
     return tracker_.StartFrom(*mapping_.SnapshotFor(next_++), velocity);
   }
-  // Tracks a frame without features.
+  // Steps to a frame without features.
   TrackingResult StepBlind() { return Step({IndexFeatures(world_.camera, {}), {}, {}}); }
 
   void Finish() { mapping_.Finish(); }
