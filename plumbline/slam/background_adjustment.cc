@@ -11,8 +11,8 @@
 namespace plumbline {
 namespace {
 
-// Lowers the priority of the calling thread, so that the program's other threads run first. Where
-// the operating system refuses, nothing changes.
+// Lowers the priority of the calling thread, so that the program's other threads run first. If the
+// operating system refuses, nothing changes.
 void LowerPriority() {
   constexpr int kLowest = 19;
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowest);
@@ -73,12 +73,12 @@ void BackgroundAdjustment::Run(Job& job) {
   } catch (...) {
     job.failure = std::current_exception();
   }
-  // What the copy shares with nobody any more may take long to free, and the job may stay parked.
+  // Freeing the unshared parts of the copy may take long, and the job may stay parked.
   job.map = Map();
   job.ready = true;
 }
 
-// Waits for the computation, which begins only now where it has no thread.
+// Waits for the computation, which begins only now if it has no thread.
 void BackgroundAdjustment::Complete() {
   if (job_->ready) return;
   if (job_->thread.joinable()) job_->thread.join();

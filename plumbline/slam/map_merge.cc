@@ -123,7 +123,7 @@ bool Bend(const std::vector<LoopEdge>& edges,
   return true;
 }
 
-// Returns the keyframe of `others` that shares most landmarks with a given keyframe; nullopt where
+// Returns the keyframe of `others` that shares most landmarks with a given keyframe; nullopt if
 // none shares enough.
 std::optional<KeyFrameId> ClosestAmong(const std::set<KeyFrameId>& others,
                                        const Map& map,
@@ -139,9 +139,9 @@ std::optional<KeyFrameId> ClosestAmong(const std::set<KeyFrameId>& others,
   return closest;
 }
 
-// Fuses and adjusts around every keyframe of the second map that shows what a keyframe of the first
-// shows. It goes through them forwards and backwards, since each keyframe that is tied makes its
-// neighbours share landmarks. Returns how many were tied.
+// Fuses and adjusts around every keyframe of the second map that shows the same place as a keyframe
+// of the first. It goes through them forwards and backwards, since each connected keyframe makes
+// its neighbours share landmarks. Returns the number of connected keyframes.
 int TieAll(const std::set<KeyFrameId>& of_first,
            std::vector<KeyFrameId> of_second,
            int min_shared,

@@ -122,8 +122,8 @@ MapUpdate Mapper::Process(const std::shared_ptr<const NewKeyFrame>& added, std::
   return update;
 }
 
-// Recognizes a place that was seen before. It ties the new keyframe to the older one and begins to
-// adjust the whole map; or it finds that a young map is wrong, which is then withdrawn.
+// Recognizes a revisited place. It connects the new keyframe with the older one and begins to
+// adjust the whole map; or it finds that a recent map is wrong, which is then withdrawn.
 void Mapper::Recognize(KeyFrameId id, std::int64_t frame, std::vector<MappingStep>& times) {
   const auto start = std::chrono::steady_clock::now();
   places_.Follow(atlas_);
@@ -140,9 +140,9 @@ void Mapper::Recognize(KeyFrameId id, std::int64_t frame, std::vector<MappingSte
   adjustment_.Begin(map, frame + AdjustmentDelay(map), adjust_map_);
 }
 
-// Begins to learn the lens of a single camera when the map has taken in enough keyframes to tell of
-// it, and again when these have doubled, four times. Where an adjustment is under way, the map is
-// asked with the first keyframe after it.
+// Begins to calibrate the lens of a single camera when the map has enough keyframes to determine
+// it, and again when their number has doubled, four times. During another adjustment, the attempt
+// is postponed to the first keyframe after it.
 void Mapper::CalibrateRadialDistortion(KeyFrameId newest, std::int64_t frame) {
   constexpr std::int64_t kFirst = 16, kLast = 256;
   const Map& map = atlas_.active();
@@ -166,7 +166,7 @@ void Mapper::TakeKnownLens(Map& map) {
   }
 }
 
-// What is remembered of a map that was joined is of the one that it is part of.
+// Transfers the state of a merged map to the map that it is now part of.
 void Mapper::FollowJoins() {
   local_.FollowJoins(atlas_);
   std::set<MapId> changed;
@@ -264,7 +264,7 @@ void Mapper::MoveFirstKeyFramesBack(Atlas& atlas) const {
 // may refer to one of them.
 std::shared_ptr<const MapSnapshot> Mapper::TakeSnapshotAround(const Map& map, KeyFrameId centre) {
   constexpr std::size_t kRemembered = 16;
-  // The earlier centres of this map; others exist where a lost camera was found in another map.
+  // The earlier centres of this map; others exist if a lost camera was found in another map.
   std::vector<KeyFrameId> earlier;
   std::copy_if(centres_.begin(), centres_.end(), std::back_inserter(earlier), [&](KeyFrameId id) {
     return map.Knows(id);

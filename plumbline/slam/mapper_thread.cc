@@ -283,7 +283,7 @@ void MapperThread::WorkUntilStopped() {
   }
 }
 
-// Does the next task and keeps what it throws for WaitFor, which the tracker's thread calls.
+// Executes the next task and stores its exception for WaitFor, which the tracker's thread calls.
 void MapperThread::TryNext(std::unique_lock<std::mutex>& lock) {
   try {
     ProcessNext(lock);
@@ -313,7 +313,7 @@ void MapperThread::ProcessNext(std::unique_lock<std::mutex>& lock) {
   if (update.snapshot == nullptr) update.snapshot = in_use;
   versions_.push_back({task.number, std::move(update.snapshot)});
   times_.insert(times_.end(), update.times.begin(), update.times.end());
-  // Both lists only grow, so that only what is new is copied.
+  // Both lists only grow, so that only new entries are copied.
   const auto take_over = [](auto& events, const auto& all) {
     events.insert(events.end(), all.begin() + std::ssize(events), all.end());
   };

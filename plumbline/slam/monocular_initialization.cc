@@ -49,7 +49,7 @@ class NearestKeyFrame {
  public:
   explicit NearestKeyFrame(const Map& map) : map_(map), id_(map.keyframes().begin()->first) {}
 
-  // Moves to a keyframe; does nothing where the map does not have it any more.
+  // Moves to a keyframe; does nothing if it has left the map.
   void MoveTo(KeyFrameId id) {
     if (id == id_ || map_.Find(id) == nullptr) return;
     id_ = id;

@@ -114,7 +114,7 @@ void Pipeline::Process(Job job) {
   system_.Complete();
 }
 
-// Returns what to shed for the frame whose turn has come.
+// Returns the level of shedding for the next frame.
 LoadLevel Pipeline::Decide(const Job& job) {
   Load load;
   const std::chrono::duration<double> waited = execution_.now() - job.arrival;
@@ -141,8 +141,8 @@ bool Pipeline::WorkOnce() {
   return true;
 }
 
-// Does the next job; the lock is released while it works. What the job throws is rethrown in the
-// feeding thread.
+// Executes the next job; the lock is released meanwhile. Its exceptions are rethrown in the feeding
+// thread.
 void Pipeline::ProcessNext(std::unique_lock<std::mutex>& lock) {
   Job job = std::move(jobs_.front());
   jobs_.pop_front();

@@ -19,9 +19,9 @@ namespace plumbline {
 namespace {
 
 constexpr std::size_t kCandidates = 3;  // keyframes that a new one is compared with
-// A place that comes back stands out among the keyframes that look alike. The candidate ranked last
-// of kRanked, or last of all where there are fewer, looks as much alike as any other place does: a
-// true candidate scores kStandsOut times as much.
+// A revisited place stands out among keyframes of similar appearance. The candidate ranked last of
+// kRanked, or last of all if there are fewer, is as similar as any other place: a true candidate
+// scores kStandsOut times as much.
 constexpr std::size_t kRanked = 40;
 constexpr std::size_t kFewest = 10;  // ranked candidates needed for that comparison
 // With fewer than kFewest ranked candidates, one must be more alike than images of another world
@@ -145,8 +145,8 @@ std::optional<KeyFrameId> PlaceRecognition::CloseLoop(Atlas& atlas,
   return edge.candidate;
 }
 
-// Joins the active map with another one that shows the same place; the older map takes in the
-// younger one.
+// Merges the active map with another one that shows the same place; the newer map becomes part of
+// the older one.
 std::optional<KeyFrameId> PlaceRecognition::Join(Atlas& atlas,
                                                  KeyFrameId id,
                                                  const std::vector<KeyFrameId>& candidates) {

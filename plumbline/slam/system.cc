@@ -30,7 +30,7 @@ Vector6d LastVelocity(const InitialMap& initial) {
   return LogSe3(last.cam_from_world * Inverse(before.cam_from_world)) / seconds;
 }
 
-// Has lines done as the options say, where the caller left that to the product.
+// Sets the product's line method, unless the caller has set one.
 SlamOptions WithLineMethod(SlamOptions options) {
   const LineMethod& method = options.lines.method;
   const bool is_default = method.residual == LineResidualKind::kObservedEnds &&
@@ -212,8 +212,9 @@ void System::CompleteRightLines(UnfinishedFrame& unfinished, StageClock& clock) 
   clock.Done("after_right_lines");
 }
 
-// Takes the place that was found for an earlier frame, and lets the tracker go on from there if it
-// is still lost. Returns the snapshot around that place; null where there is nothing to go on from.
+// Takes the result of relocalization of an earlier frame, and lets the tracker continue from there
+// if it is still lost. Returns the snapshot around that place; null if there is no place to
+// continue from.
 std::shared_ptr<const MapSnapshot> System::TakeRelocalized(FrameId frame) {
   const auto outcome = mapping_.TakeRelocalization();
   if (!outcome) return nullptr;
@@ -234,8 +235,8 @@ std::shared_ptr<const MapSnapshot> System::TakeRelocalized(FrameId frame) {
   return outcome->snapshot;
 }
 
-// A camera that was lost, tracked again and lost once more is not where it was looked for: since
-// then it may have made keyframes, which the snapshot around that place does not know.
+// Relocalization is outdated if the camera was tracked and lost again meanwhile: it may have made
+// keyframes that are not in the snapshot around that place.
 bool System::TrackedSince(FrameId frame) const {
   for (std::size_t i = frames_.size(); i-- > static_cast<std::size_t>(frame.value) + 1;) {
     if (frames_[i].status == FrameStatus::kTracked) return true;
@@ -388,9 +389,8 @@ std::vector<StageTime> System::TakeMappingTimes() {
   return times;
 }
 
-// Lets frames whose keyframe is in no map, because mapping failed before it got to that keyframe,
-// refer to its parent. Marks them as lost where there is none, or where tracking failed before it
-// handed the keyframe over.
+// Lets frames whose keyframe is in no map, because mapping failed before it, refer to its parent.
+// Marks them as lost if it has none, or if tracking failed before it handed the keyframe over.
 void System::LoseFramesNotMapped() {
   for (const DroppedKeyFrame& gone : mapping_.NotMapped()) Demote(gone);
   const auto has_place = [&](const FrameRecord& record) {

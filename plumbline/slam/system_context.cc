@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-// What a system's maps are made with, as map files keep it.
+// Context of a system's maps for map files.
 #include "plumbline/map/byte_format.h"
 #include "plumbline/slam/atlas_context.h"
 #include "plumbline/slam/system.h"
