@@ -9,8 +9,8 @@ namespace {
 // limit is tracked, and at once when it is smaller than the second: tracking is about to fail then.
 constexpr double kMinLandmarkRatio = 0.7;
 constexpr double kCriticalRatio = 0.35;
-// With one camera the limit is higher, since it needs a second keyframe to know where new landmarks
-// are.
+// With one camera the limit is higher, since it needs a second keyframe to triangulate new
+// landmarks.
 constexpr double kMinMonocularRatio = 0.9;
 // Near points fix the translation. A frame that tracks `kMinClose` of them needs no keyframe for
 // them; otherwise a keyframe must bring at least `kMinNewClose` new ones.

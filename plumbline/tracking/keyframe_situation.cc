@@ -9,12 +9,12 @@
 namespace plumbline {
 namespace {
 
-// A landmark counts as well observed if so many keyframes show it (fewer in a young map). This is
-// not tracking.established_views, which says which landmarks are trusted, may be 0, and is the same
-// with one camera.
+// Number of keyframes that observe a well observed landmark (fewer in a recent map). Differs from
+// tracking.established_views, which defines trusted landmarks, may be 0, and is the same with one
+// camera.
 constexpr int kWellObserved = 3;
-// With one camera a landmark has two views as soon as it is made. Where few landmarks live longer,
-// a limit of three views would lose all of them before a keyframe is made.
+// With one camera a landmark has two views from the beginning. If few landmarks live longer, a
+// limit of three views would lose all of them before a keyframe is made.
 constexpr int kWellObservedByOne = 2;
 // A point counts as near if the deviation of its depth, relative to the depth, is below this: such
 // points fix the translation.

@@ -21,7 +21,7 @@ int CountMatches(const std::vector<int>& match_of_feature) {
       match_of_feature.begin(), match_of_feature.end(), [](int match) { return match >= 0; }));
 }
 
-// Returns what `project` makes of each landmark; nullopt for those that are not visible.
+// Returns the result of `project` for each landmark; nullopt for those not visible.
 template <class Landmark, class Project>
 auto ProjectAll(const std::vector<Landmark>& landmarks, const Project& project) {
   std::vector<decltype(project(landmarks[0]))> projected;

@@ -42,8 +42,7 @@ Eigen::Matrix3d CovarianceAt(const Rigid3& cam_from_world,
   return R * covariance * R.transpose();
 }
 
-// Returns the covariances of the ends of the visible part of a line; nullopt where they are
-// unknown.
+// Returns the covariances of the ends of the visible part of a line; nullopt if they are unknown.
 std::optional<EndCovariances> EndCovariancesFor(const PoseProblem& problem,
                                                 const CutCandidate& candidate,
                                                 const LineInterval& interval,

@@ -19,11 +19,11 @@ namespace {
 
 // Largest deviation of the depth, relative to the depth, of landmarks made from one frame. The
 // first limit is for points, the second for the ends of lines, whose weights allow for more. The
-// third is for both where the first two leave too few landmarks.
+// third is for both if the first two leave too few landmarks.
 constexpr double kMaxDepthSigma = 0.05;
 constexpr double kMaxLineDepthSigma = 0.15;
 constexpr double kWorstDepthSigma = 0.3;
-// Lines at a guessed depth are searched only where the pose is known less well than this.
+// Lines at a guessed depth are searched only if the deviation of the pose is above this.
 constexpr double kGuessPoseSigma = 0.01;
 
 // Finds a landmark of the map; nullptr for an invalid id, and for a landmark that is not in the
@@ -84,8 +84,8 @@ PoseSearch::PoseSearch(const CameraAndPyramid& imaging,
                        const PoseEstimator& estimator)
     : imaging_(imaging), options_(options), estimator_(estimator) {}
 
-// Collects what the last frame showed: its landmarks as they are in the snapshot, and new ones from
-// its depths, placed by the pose that the frame has in the snapshot.
+// Collects the landmarks of the last frame: those in the snapshot, and new ones from its depths, by
+// its pose in the snapshot.
 LandmarkMatches PoseSearch::LastLandmarks(const LastFrame& last,
                                           const MapSnapshot& snapshot,
                                           const Frame& frame,
@@ -144,7 +144,7 @@ std::optional<PoseEstimate> PoseSearch::FromPrediction(const Frame& frame,
                                 LastSearch{Depths::kUncertain, 1},
                                 LastSearch{Depths::kGuessed, 1},
                                 LastSearch{Depths::kGuessed, kWideFactor}}) {
-    // Guessed depths may be wrong, so that they are used only where they are needed.
+    // Guessed depths may be wrong, so that they are used only if needed.
     const double limit =
         how.depths == Depths::kGuessed ? kGuessPoseSigma : options_.enough_pose_sigma;
     const bool many =

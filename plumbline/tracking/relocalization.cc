@@ -19,13 +19,13 @@ constexpr std::size_t kTried = 6;  // most candidates that are tried
 constexpr int kOfOnePlace = 2;
 // Number of close neighbours of a keyframe: those that share most landmarks with it.
 constexpr int kCloseNeighbours = 10;
-// Where another place has at least this share of the inliers, neither place is believed.
+// If another place has at least this share of the inliers, both are rejected.
 constexpr double kRival = 0.7;
 // Points and lines: by chance fewer agree with a wrong pose.
 constexpr int kMinInliers = 30;
 
-// Chooses the candidates that are tried, best first, few of them near each other: what failed from
-// one keyframe most often fails from its neighbours, and what succeeded needs no second attempt.
+// Chooses the candidates to try, best first, few of them near each other: a failure from one
+// keyframe usually recurs from its neighbours, and a success needs no second attempt.
 std::vector<PlaceToTry> OfDifferentPlaces(std::span<const PlaceToTry> candidates) {
   std::vector<PlaceToTry> tried;
   std::map<KeyFrameId, int> neighbours;  // how many of the tried keyframes have it as a neighbour
@@ -45,7 +45,7 @@ struct PlaceFound {
   Relocalized frame;
 };
 
-// Whether two poses are so far apart that tracking could not get from one to the other.
+// Returns true if two poses are too far apart for tracking to get from one to the other.
 bool Apart(const PlaceFound& one, const PlaceFound& other) {
   if (one.map != other.map) return true;
   const Relocalized& a = one.frame;

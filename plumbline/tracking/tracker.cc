@@ -272,7 +272,7 @@ TrackingResult Tracker::FinishLost(Frame frame, TrackingFailure failure, FrameCo
     failure = TrackingFailure::kTooFewFeatures;
     asked_ = false;
   }
-  // What shows nothing says nothing against the map.
+  // A frame that shows nothing is no evidence against the map.
   ++(blind && blind_frames_ < loss_.blind_frames ? blind_frames_ : lost_frames_);
   state_ = NextState(state_, false, lost_frames_, Patience(frame, blind));
   motion_.Forget();
@@ -290,8 +290,8 @@ void Tracker::ForgetLoss() {
   asked_ = false;
 }
 
-// Whether a frame shows less than a lost camera needs for its pose. Where depth is measured, points
-// without depth do not count, since no map can start with them and noise has many.
+// Returns true if a frame shows too little for the pose of a lost camera. If depth is measured,
+// points without depth do not count, since no map can start with them and noise has many.
 bool Tracker::IsBlind(const Features& features) const {
   const std::size_t seen = features.points.size() + features.lines.size();
   const auto depths = std::count_if(features.point_disparity.begin(),
@@ -326,7 +326,7 @@ NewKeyFrame Tracker::MakeKeyFrame(const Frame& frame,
   return {{newest_keyframe_, parent, frame}, std::exchange(scores_, {}), from_parent};
 }
 
-// Moves the last frame with its keyframe by what mapping has done to it since.
+// Moves the last frame with its keyframe by the changes of mapping since then.
 void Tracker::UpdateLastFrame(const MapSnapshot& snapshot) {
   const bool arrived = snapshot.places.contains(last_->anchor.keyframe);
   Anchor& anchor = arrived ? last_->anchor : last_->parent;
