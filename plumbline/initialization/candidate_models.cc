@@ -30,10 +30,10 @@ double LineNoiseOf(const std::vector<LineFit>& fits) {
   return chi2.empty() ? 1 : std::sqrt(UpperMedian(std::move(chi2)) / kMedianOfChi2);
 }
 
-// Returns the best model, moved to either side along the direction that its points and lines fix
-// least, until the direction of the newest translation is off by kProbe. All other poses follow as
-// the covariance says. These models are the ends of a valley of the cost, where another minimum may
-// be.
+// Returns the best model, moved to either side along the direction least determined by its points
+// and lines, until the direction of the newest translation is off by kProbe. All other poses follow
+// by the covariance. These models are the ends of a valley of the cost, which may have another
+// minimum there.
 std::vector<Reconstruction> Probes(const FeatureTracks& tracks, const Reconstruction& best) {
   const auto covariance = ComputeCovariance(tracks, best, 1, kChi2TwoDof99);
   if (!covariance) return {};

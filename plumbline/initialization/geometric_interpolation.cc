@@ -57,7 +57,7 @@ std::optional<InterpolatedPoint> GeometricInterpolation::Interpolate(
   const Eigen::Vector3d lc = from_current_.E * xc;
   const Eigen::Vector3d meet = l0.cross(lc);
   const double lengths = l0.head<2>().norm() * lc.head<2>().norm();
-  // The second test also holds where one of the poses is at rest and has no epipolar lines.
+  // The second test also applies if one of the poses is at rest and has no epipolar lines.
   if (!(std::abs(meet.z()) > 1e-9 * lengths) || !(lengths > 0)) return std::nullopt;
   const Eigen::Vector3d x = meet / meet.z();
   const Vector6d row0 = PoseRow(from_reference_, x0, l0, x);

@@ -68,8 +68,7 @@ DepthRange LineDepths(const InitialMap& map) {
   return {range.nearest / kDepthMargin, range.furthest * kDepthMargin};
 }
 
-// Returns the part of the line that any of the views saw; nullopt where one of them saw it behind
-// itself.
+// Returns the part of the line visible in any of the views; nullopt if it is behind one of them.
 std::optional<Segment3> SeenPart(const RectifiedCamera& camera,
                                  std::span<const LineView> views,
                                  const PluckerLine& line) {

@@ -32,7 +32,7 @@ struct Poses {
   double parallax_deg = 0;                 // parallax of the newest frame
 };
 
-// Returns the best relative pose of each frame by itself; nullopt where a frame has none.
+// Returns the best relative pose of each frame by itself; nullopt if a frame has none.
 std::optional<Poses> RelativePoses(const FeatureTracks& tracks, Rng& rng) {
   Poses poses;
   for (const ViewPoints& view : tracks.views) {

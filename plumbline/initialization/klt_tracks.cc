@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kWindow = 21;
 constexpr int kLevels = 3;
-// Largest distance [px] between a point and where following it back leads.
+// Largest distance [px] between a point and the result of following it back.
 constexpr double kMaxReturnError = 1;
 constexpr std::size_t kPointsAtOnce = 32;  // points that a thread follows before it takes others
 

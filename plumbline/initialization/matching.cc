@@ -37,7 +37,7 @@ Eigen::Vector2d MedianShift(std::span<const PixelPair> matches) {
   return {UpperMedian(std::move(x)), UpperMedian(std::move(y))};
 }
 
-// Half width of the window around a place where no motion is known.
+// Half width of the window around a position without known motion.
 constexpr double kFirstWindowPx = 100;
 // Half width of the window around the place that a guessed motion predicts.
 constexpr double kGuessedWindowPx = 50;

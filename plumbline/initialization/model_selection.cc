@@ -25,8 +25,8 @@ constexpr int kMinMatches = 24;
 constexpr std::size_t kMinPoints = 12;
 constexpr double kMinParallaxDeg = 1.2;   // at the median point of the newest frame
 constexpr double kMinInlierShare = 0.85;  // share of the matches of all views
-// A model is chosen only where the chi2 of the next best model is larger by at least this part of
-// the chi2 of the best one.
+// A model is chosen only if the chi2 of the next best model is larger by at least this part of the
+// chi2 of the best one.
 constexpr double kMinMargin = 0.5;
 // Largest standard deviations that the covariance may promise: of the rotation of the newest pose,
 // of the direction of the line between the centres, and of the depth of the median point, relative.
@@ -37,12 +37,12 @@ constexpr double kMaxDepth = 0.06;
 constexpr double kUnknownDepth = 0.3;
 // Least noise of measurements that is assumed, relative to their stated deviation.
 constexpr double kMinNoise = 0.25;
-// Least noise of a fit, in units of the noise that the distances from the epipolar lines have. A
-// smaller noise is not believed where these distances do not show it.
+// Least noise of a fit, in units of the noise of the distances from the epipolar lines. A smaller
+// noise is not believed unless these distances show it.
 constexpr double kLeastNoise = 0.4;
 // A model whose cost is this many times that of the best one before adjustment is not adjusted.
 constexpr double kHopeless = 2;
-// Where there are at least this many points, lines take no part.
+// With at least this many points, lines are not used.
 constexpr std::size_t kManyPoints = 200;
 // The work for each of several models is done by two threads, since a plane gives two models.
 constexpr int kThreads = 2;
@@ -124,7 +124,7 @@ double MedianDepthSigma(const ReconstructionCovariance& covariance) {
   return UpperMedian(std::move(sigmas));
 }
 
-// Whether the accuracy that the covariance promises for a model is good enough.
+// Tests whether the predicted accuracy of a model, by its covariance, is sufficient.
 InitializationStatus TestAccuracy(const FeatureTracks& tracks, const CandidateModel& model) {
   const double noise = std::max(kLeastNoise, model.fit.noise);
   const auto covariance = ComputeCovariance(tracks,
@@ -169,8 +169,8 @@ InitializationStatus Decide(const FeatureTracks& tracks,
   return InitializationStatus::kNone;
 }
 
-// Whether lines are to take part: points alone do not suffice, and there are few of them. What many
-// points leave open is not for lines to decide.
+// Returns true if lines are used: points alone do not suffice, and there are few of them. Lines do
+// not decide an ambiguity left by many points.
 bool NeedsLines(const FeatureTracks& tracks, InitializationStatus wait) {
   return wait != InitializationStatus::kNone && wait != InitializationStatus::kTooLittleParallax &&
          tracks.lines.size() > 0 && tracks.size() < kManyPoints;

@@ -44,10 +44,10 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> AffineDerivatives(const ImagePatch& pat
   return J;
 }
 
-// Returns the place near `start`, which was found by shifts alone, where the image looks like the
-// patch under an affine map: `axes` times `warp`. `warp` holds the start of the search and returns
-// the result. The prior of the warp has the weight of the residual. It holds the warp near one
-// while the patch does not fit and where the patch says nothing.
+// Returns the position near `start`, the result of the search by shifts, at which the image matches
+// the patch under an affine map: `axes` times `warp`. `warp` is the start of the search and returns
+// the result. The prior of the warp has the weight of the residual. It keeps the warp near one
+// while the patch does not fit and in directions that the patch does not determine.
 std::optional<Eigen::Vector2d> AlignAffine(const ImagePatch& patch,
                                            const GrayImage& image,
                                            const Eigen::Vector2d& start,

@@ -19,7 +19,7 @@ namespace {
 // Factor from the median length of a residual with two independent normal components to their
 // deviation.
 constexpr double kMedianToSigma = 1 / 1.1774;
-// Least spread of the residuals, in units of the noise assumed. Where residuals are still smaller,
+// Least spread of the residuals, in units of the assumed noise. If residuals are still smaller,
 // none is an outlier.
 constexpr double kMinSpread = 0.1;
 
@@ -237,7 +237,7 @@ void Rank1Matrix::SetView(Eigen::Index i,
   const Row qp = q.x * p.x + q.y * p.y + q.z * p.z;
   const Row across = squared_length - tq.square();  // the square of q's component across t
   const Eigen::Map<const Row> sigmas(view.sigmas.data(), tq.size());
-  // Points without a place are left out, and rays along t, where the two lines are parallel.
+  // Points without a position are left out, and rays along t, for which the two lines are parallel.
   const Row known = (sigmas > 0 && across > min_squared_sine * squared_length).cast<double>();
   const Row half = 0.5 * known / (known > 0).select(across, 1);
   const Row s0 = half * (squared_length * tp - tq * qp);

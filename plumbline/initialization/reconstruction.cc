@@ -38,8 +38,8 @@ bool IsSeen(const FeatureTracks& tracks, std::size_t k) {
 std::optional<PluckerLine> Triangulate(const FeatureTracks& tracks,
                                        const Reconstruction& reconstruction,
                                        std::size_t k) {
-  // All residuals are allowed here, because the adjustment of all lines together finds what the
-  // views disagree about.
+  // All residuals are allowed here, because the joint adjustment of all lines detects disagreements
+  // of the views.
   constexpr double kAnyResidual = 1e9;
   std::vector<LineView> views;
   VisitViews(tracks.lines, k, [&](std::size_t i, const ViewLines& view) {

@@ -58,7 +58,7 @@ struct NormalBlocks {
 
   Eigen::Matrix<double, N, N> V;
   std::vector<Block> W;     // for each view, of use where the view sees the landmark
-  std::vector<Matrix6d> H;  // for each view, of use where the view sees the landmark
+  std::vector<Matrix6d> H;  // for each view, valid if the view sees the landmark
   std::vector<char> sees;   // for each view
 };
 
@@ -68,7 +68,7 @@ class PoseInformation {
   explicit PoseInformation(std::size_t views)
       : views_(views), blocks_(views * (views + 1) / 2, Matrix6d::Zero()) {}
 
-  // Eliminates a landmark; returns V^-1, or nullopt where the landmark is not fixed.
+  // Eliminates a landmark; returns V^-1, or nullopt if the landmark is not determined.
   template <int N>
   std::optional<Eigen::Matrix<double, N, N>> Eliminate(const NormalBlocks<N>& blocks) {
     const Eigen::LLT<Eigen::Matrix<double, N, N>> factor(blocks.V);
@@ -148,7 +148,7 @@ class PointEquations {
     }
   }
 
-  // Sets the equations of point k; returns false where it has no place or no view sees it.
+  // Sets the equations of point k; returns false if it has no position or no view sees it.
   bool Set(std::size_t k, double noise, double max_chi2, NormalBlocks<3>& blocks) const {
     const Eigen::Vector3d& X = reconstruction_.points[k];
     const auto in_reference =

@@ -16,8 +16,8 @@
 namespace plumbline {
 namespace {
 
-// A point whose inverse distance is at most this part of the median is as good as infinitely far.
-// It is put at that distance, where it still holds the rotations.
+// A point whose inverse distance is at most this part of the median counts as infinitely far. It
+// gets this distance, at which it still constrains the rotations.
 constexpr double kFarthest = 0.02;
 // Largest chi2 of measurements that enter the covariance: 99.99 % of two degrees of freedom.
 constexpr double kMaxChi2 = 18.4;
@@ -64,8 +64,7 @@ std::optional<Reconstruction> StructureOfTwoFrames(const FeatureTracks& tracks,
   return ToReconstruction(tracks, factors->inverse_distances, std::move(poses));
 }
 
-// Returns the pose of a frame from the points that it shows; nullopt where the frame does not fit
-// them.
+// Returns the pose of a frame from its points; nullopt if the frame does not fit them.
 std::optional<Rigid3> Resect(const FeatureTracks& tracks,
                              const ViewPoints& seen,
                              const Reconstruction& structure,
@@ -214,9 +213,9 @@ std::vector<double> InverseDistancesOfPair(const FeatureTracks& tracks,
   return InverseDistances(pair, {pose});
 }
 
-// Gives each translation its length, that of the first being one: the points that a frame and the
-// one before it both show have one distance, which the pairs of both frames with the reference tell
-// in units of their translations. Returns nullopt where two frames have no such point in common.
+// Scales each translation, the first to length one: common points of a frame and the previous one
+// have one distance, known from the pairs of both frames with the reference in units of their
+// translations. Returns nullopt if two successive frames have no common point.
 std::optional<std::vector<Rigid3>> ChainLengths(const FeatureTracks& tracks,
                                                 std::vector<Rigid3> poses) {
   std::vector<double> before = InverseDistancesOfPair(tracks, tracks.views[0], poses[0]);

@@ -50,8 +50,8 @@ class Separated {
   std::vector<Eigen::Vector2d> taken_;
 };
 
-// Returns for each feature whether it is followed from image to image: the best localized feature
-// at each place is.
+// Returns true for each feature followed from image to image: the best localized one at each
+// position.
 std::vector<bool> ChooseFollowed(std::span<const PointFeature> points) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -153,9 +153,9 @@ std::vector<InitializationWindow::Place> InitializationWindow::PlacesOfMatches(
   return places;
 }
 
-// Returns the places of the reference's points in the image. Points are followed from the last
-// image; points that were lost are matched by descriptor. Each is then brought to where the image
-// looks as in the reference, and followed from there in the next image.
+// Returns the positions of the reference's points in the image. Points are followed from the last
+// image; lost points are matched by descriptor. Each is then aligned to its appearance in the
+// reference, and followed from there in the next image.
 std::vector<InitializationWindow::Place> InitializationWindow::PlacesOnImage(
     const InitializationFrame& frame, const ReferenceMatches& matches) {
   PLUMBLINE_CHECK(frame.image != nullptr, "points are followed on images");
@@ -176,7 +176,7 @@ std::vector<InitializationWindow::Place> InitializationWindow::PlacesOnImage(
   return places;
 }
 
-// Returns where the image looks as the reference does around its points (AlignPatches).
+// Aligns the reference's points to their appearance in the reference (AlignPatches).
 TrackedPixels InitializationWindow::AlignWithReference(const GrayImage& image,
                                                        const TrackedPixels& guesses,
                                                        const Eigen::Matrix2d& linear) {

@@ -20,7 +20,7 @@
 namespace plumbline {
 namespace {
 
-// Values of the paper (section IV), and of the system that came with it where the paper gives none.
+// Values of the paper (section IV), or of its published system if the paper gives none.
 constexpr std::size_t kMinFeatures = 100;
 constexpr std::size_t kMinMatches = 100;
 constexpr std::size_t kMinPoints = 50;
