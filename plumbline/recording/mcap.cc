@@ -136,7 +136,7 @@ class McapReader {
     return file_->Bytes(record.data, record.size);
   }
 
-  // Compares the checksum of all bytes before the end of the data, where there is one.
+  // Verifies the checksum of all bytes before the end of the data, if there is one.
   void CheckData(const Record& record) const {
     const std::uint32_t wanted = ByteCursor(Contents(record)).U32();
     if (wanted == 0) return;
@@ -199,7 +199,7 @@ class McapReader {
     TakeMessage(**bytes, {0, index, 0, 0, 0}, record.at);
   }
 
-  // Takes a message. place.offset is where the record begins in its part of the file.
+  // Takes a message. place.offset is the beginning of the record in its part of the file.
   void TakeMessage(ByteSpan record, StoredMessage place, std::uint64_t at) {
     ByteCursor cursor(record);
     const std::uint16_t id = cursor.U16();

@@ -79,12 +79,12 @@ std::uint64_t TimeOf(std::int64_t time_ns) {
   return time_ns > 0 ? static_cast<std::uint64_t>(time_ns) : 0;
 }
 
-// Returns the last message of the operating system; it has none where a stream failed by itself.
+// Returns the last error of the operating system; there is none if a stream failed by itself.
 std::string LastReason() {
   return errno == 0 ? std::string("unknown reason") : std::generic_category().message(errno);
 }
 
-// Whether a program that runs has locked the file.
+// Returns true if a running program has locked the file.
 bool IsBeingWritten(const std::filesystem::path& file) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (descriptor < 0) return false;
@@ -93,8 +93,9 @@ bool IsBeingWritten(const std::filesystem::path& file) {
   return held;
 }
 
-// A new file, locked as long as it is open; null and errno where it cannot be made. What came to
-// its place meanwhile is neither followed nor emptied. File systems without locks do without.
+// A new file, locked as long as it is open; null and errno if it cannot be made. A file that
+// appeared at the path meanwhile is neither followed nor emptied. File systems without locks do
+// without.
 std::FILE* MakeLockedFile(const std::filesystem::path& path) {
   const int descriptor =
       ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
@@ -128,7 +129,7 @@ void McapFileWriter::CheckPart(const std::filesystem::path& path) {
   };
   if (std::filesystem::is_symlink(part, error)) refuse("a link");
   if (!std::filesystem::is_regular_file(part, error)) refuse(KindOf(part));
-  // What was not written on yet when the program died is empty.
+  // A part is empty if the program died before writing.
   const bool empty = std::filesystem::file_size(part, error) == 0;
   if (!empty && !FileBeginsWith(part, Beginning())) refuse("another file");
   if (IsBeingWritten(part)) throw InputError(part.string() + ": another run is writing this file");
@@ -168,7 +169,7 @@ McapFileWriter::~McapFileWriter() {
   try {
     Close();
   } catch (const std::exception&) {
-    // What was written stays under the name of the part.
+    // The data remain under the name of the part.
   }
 }
 
@@ -179,7 +180,7 @@ void McapFileWriter::Fail() const {
 
 void McapFileWriter::Append(const std::string& bytes) {
   errno = 0;
-  // Nothing is written behind what could not be: the file would look whole.
+  // Nothing is written after a failed write: the file would appear complete.
   const bool broken = std::ferror(file_.get()) != 0;
   if (broken || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) Fail();
   size_ += bytes.size();

@@ -69,8 +69,7 @@ std::optional<Field> ReadField(ByteCursor& cursor) {
   return cursor.ok() ? std::optional(field) : std::nullopt;
 }
 
-// Calls `take` with every field. Returns false where the bytes are no message or `take` returns
-// false.
+// Calls `take` with every field. Returns false if the bytes are no message or `take` returns false.
 template <class Take>
 bool ForEachField(ByteSpan bytes, const Take& take) {
   ByteCursor cursor(bytes);

@@ -35,7 +35,7 @@ using ByteSpan = std::span<const std::uint8_t>;
 // The header of a record or of a connection: name=value, each behind its length.
 class Fields {
  public:
-  // Returns false where the bytes are no such list.
+  // Returns false if the bytes are malformed.
   bool Parse(ByteSpan bytes) {
     fields_.clear();
     ByteCursor cursor(bytes);

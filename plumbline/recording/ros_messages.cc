@@ -108,7 +108,7 @@ std::optional<CalibrationMessage> ParseRosCalibration(bool cdr, ByteSpan bytes) 
   camera.roi_y = fields.U32();
   camera.roi_height = fields.U32();
   camera.roi_width = fields.U32();
-  fields.U8();  // whether the region is to be rectified
+  fields.U8();  // true to rectify the region
   return fields.ok() ? std::optional(std::move(camera)) : std::nullopt;
 }
 

@@ -59,11 +59,11 @@ Database Open(const std::string& uri, int flags) {
   return status == SQLITE_OK ? std::move(database) : nullptr;
 }
 
-// Opens a file that nobody changes: SQLite neither locks it nor looks for a journal.
+// Opens an unchanging file: SQLite neither locks it nor searches for a journal.
 Database OpenAsItIs(const fs::path& path) {
   Database database = Open(UriOf(path) + "?mode=ro&immutable=1", SQLITE_OPEN_READONLY);
   if (database == nullptr) return nullptr;
-  // Nothing of what the file says is run.
+  // Code in the file is never executed.
   for (const int feature : {SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW}) {
     sqlite3_db_config(database.get(), feature, 0, nullptr);
   }
@@ -103,15 +103,15 @@ std::vector<fs::path> JournalsOf(const fs::path& path) {
   return journals;
 }
 
-// What shows whether a file was changed.
+// Returns a state that reveals changes of a file.
 std::pair<std::uintmax_t, fs::file_time_type> StateOf(const fs::path& path) {
   std::error_code error;
   const auto size = fs::file_size(path, error);
   return {size, fs::last_write_time(path, error)};
 }
 
-// Copies the file and its journals, again where a recorder has changed one of them meanwhile.
-// Returns the copy, or nothing where there is no room for it.
+// Copies the file and its journals, again if a recorder has changed one of them meanwhile. Returns
+// the copy, or nullopt if there is no room for it.
 std::optional<fs::path> CopyWithJournals(const fs::path& path,
                                          const std::vector<fs::path>& journals,
                                          const fs::path& folder) {
@@ -147,7 +147,7 @@ void TakeJournalIn(const fs::path& copy) {
   }
 }
 
-// What shows that a file was cut short.
+// Evidence that a file was truncated.
 struct Cut {
   bool nothing = false;         // it has no bytes
   bool short_of_pages = false;  // it has fewer bytes than the pages that its header counts
