@@ -26,7 +26,7 @@ namespace {
 
 std::error_code LastError() { return {errno, std::generic_category()}; }
 
-// Whether the contents of a file or folder are on the disk.
+// Returns true if the contents of a file or folder are on the disk.
 bool Synchronized(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return false;
@@ -118,7 +118,7 @@ class KeptFile {
         fmt::format(".{}.{}.old{}", path_.stem().string(), ::getpid(), path_.extension().string());
     std::error_code error;
     there_ = std::filesystem::exists(path_, error);
-    // Some file systems know no second names: then what is replaced is gone.
+    // Some file systems have no hard links: then the replaced file is lost.
     if (there_) std::filesystem::create_hard_link(path_, kept_, error);
     is_kept_ = there_ && !error;
   }
@@ -129,7 +129,7 @@ class KeptFile {
     if (is_kept_) std::filesystem::remove(kept_, ignored);
   }
 
-  // Puts back what was there, if it was nothing, nothing.
+  // Restores the earlier file; removes the new one if there was none.
   void PutBack() {
     std::error_code ignored;
     if (!there_) std::filesystem::remove(path_, ignored);
@@ -172,7 +172,7 @@ std::string TemporaryName(const std::filesystem::path& folder, const std::string
   return fmt::format(".{}.{}.tmp", folder.filename().string(), process);
 }
 
-// Whether a folder holds anything beside what a program left that was killed while it filled it.
+// Returns true if a folder has files other than those left by a program killed while it filled it.
 bool HoldsFiles(const std::filesystem::path& folder) {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {

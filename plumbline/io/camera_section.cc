@@ -29,7 +29,7 @@ bool HasPath(const YamlSection& section, const std::string& path) {
   FailAtPath(section.Child(path.substr(0, slash)), path.substr(slash + 1), message);
 }
 
-// Where there is a fault, fails at the first of the keys that the file has.
+// If there is a fault, fails at the first of the keys in the file.
 void FailOn(const std::optional<std::string>& fault,
             const YamlSection& root,
             const std::vector<std::string>& keys) {

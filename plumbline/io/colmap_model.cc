@@ -27,7 +27,7 @@ ColmapModel::Image ImageOf(const KeyFrame& keyframe, const std::string& name) {
   return image;
 }
 
-// Returns the point with its views; nullopt where there are fewer than COLMAP can use.
+// Returns the point with its views; nullopt if there are too few for COLMAP.
 std::optional<ColmapModel::Point> PointOf(const SavedMap& saved, const MapPoint& point) {
   constexpr std::size_t kMinViews = 2;
   ColmapModel::Point result;

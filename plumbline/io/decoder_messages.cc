@@ -22,7 +22,7 @@ ssize_t WriteUnlessDecoding(void*, const char* text, std::size_t size) {
 }
 #endif
 
-// What std::cerr writes through from then on. It holds nothing itself: threads may write at once.
+// Replaces the buffer of std::cerr. It is unbuffered: threads may write at once.
 class CerrUnlessDecoding : public std::streambuf {
  public:
   explicit CerrUnlessDecoding(std::streambuf* to) : to_(to) {}

@@ -77,7 +77,7 @@ std::vector<FrameFiles> PairUp(const std::vector<ListedImage>& left,
                                  const YamlSection& right_root,
                                  const Calibration& calibration) {
   const Camera& left = calibration.left;
-  std::vector<std::string> notes;  // the error is what counts
+  std::vector<std::string> notes;  // ignored: only the error matters
   const auto size = ReadImageSize(ReadList(mav / "cam0", notes).front().path);
   if (size && (size->width != left.width() || size->height != left.height())) {
     left_root.Fail("resolution",

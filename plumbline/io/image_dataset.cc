@@ -71,10 +71,10 @@ std::string_view DigitRun(std::string_view text) {
   return text.substr(0, static_cast<std::size_t>(end - text.begin()));
 }
 
-// What digits behind "<digit>." count as, for all names of a folder.
+// Meaning of digits after "<digit>.", for all names of a folder.
 enum class DigitsBehindPoint { kNumber, kFraction };
 
-// Whether digits begin at this place of a name that stand behind "<digit>.".
+// Returns true if digits after "<digit>." begin at this position of a name.
 bool IsBehindPoint(std::string_view name, std::size_t place) {
   return place >= 2 && name[place - 1] == '.' && !DigitRun(name.substr(place - 2)).empty();
 }
@@ -100,8 +100,8 @@ DigitsBehindPoint DigitsBehindPointOf(const std::vector<std::string>& names) {
   return DigitsBehindPoint::kFraction;
 }
 
-// Returns less than 0 where a comes first, and more than 0 where b does; 0 for names that differ at
-// most in zeros before numbers, such as 1 and 01.
+// Returns less than 0 if a comes first, and more than 0 if b does; 0 for names that differ at most
+// in zeros before numbers, for example 1 and 01.
 int NaturalOrder(std::string_view a, std::string_view b, DigitsBehindPoint behind_point) {
   const std::string_view name = a;  // as far as the names are the same, both are like this one
   while (!a.empty() && !b.empty()) {
@@ -129,7 +129,7 @@ int NaturalOrder(std::string_view a, std::string_view b, DigitsBehindPoint behin
   return a.empty() == b.empty() ? 0 : a.empty() ? -1 : 1;
 }
 
-// Sorts the names of the images in a folder. Refuses names with the same number: nobody can tell
+// Sorts the names of the images in a folder. Refuses names with the same number: it is ambiguous
 // which of 3.png, 000003.png and 3.jpg is the image of that number.
 void SortByNumbers(const fs::path& folder, std::vector<std::string>& names) {
   const DigitsBehindPoint behind_point = DigitsBehindPointOf(names);
@@ -335,7 +335,7 @@ std::vector<std::string> ListImages(const fs::path& folder) {
   if (!fs::is_directory(folder, error)) throw InputError(folder.string() + ": no such folder");
   std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    // What is hidden is no image of the folder: macOS leaves a "._1.png" beside "1.png".
+    // Hidden files are no images of the folder: macOS leaves a "._1.png" beside "1.png".
     const std::string name = entry.path().filename().string();
     if (name.starts_with('.')) continue;
     std::string extension = entry.path().extension().string();

@@ -52,7 +52,7 @@ bool IsPng(Bytes bytes) { return HasText(bytes, 0, "\x89PNG\r\n\x1a\n"); }
 bool IsJpeg(Bytes bytes) { return HasText(bytes, 0, "\xFF\xD8\xFF"); }
 bool IsWebp(Bytes bytes) { return HasText(bytes, 0, "RIFF") && HasText(bytes, 8, "WEBP"); }
 
-// Returns what is wrong with a PNG file, which has chunks of length, type, data and CRC up to IEND.
+// Returns the fault of a PNG file, which has chunks of length, type, data and CRC up to IEND.
 std::optional<std::string> PngDamage(Bytes bytes) {
   std::size_t at = 8;
   while (at + 12 <= bytes.size()) {
@@ -67,8 +67,8 @@ std::optional<std::string> PngDamage(Bytes bytes) {
   return std::string(kEndsEarly);
 }
 
-// Returns what is wrong with a JPEG file, which has marker segments with lengths up to the start of
-// the scan, then coded data, then an end-of-image marker.
+// Returns the fault of a JPEG file, which has marker segments with lengths up to the start of the
+// scan, then coded data, then an end-of-image marker.
 std::optional<std::string> JpegDamage(Bytes bytes) {
   std::size_t at = 2;
   while (at + 4 <= bytes.size()) {

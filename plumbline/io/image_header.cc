@@ -117,7 +117,7 @@ std::optional<ImageSize> SizeOfPnm(const Header& file) {
 std::optional<ImageSize> SizeOfBmp(const Header& file) {
   constexpr std::uint32_t kOldHeader = 12, kSign = 0x80000000U;
   if (file.Little(14, 4) == kOldHeader) return Size(file.Little(18, 2), file.Little(20, 2));
-  const std::uint32_t height = file.Little(22, 4);  // negative where the first row is the top one
+  const std::uint32_t height = file.Little(22, 4);  // negative if the first row is the top one
   return Size(file.Little(18, 4), (height & kSign) != 0 ? 0U - height : height);
 }
 
@@ -131,7 +131,7 @@ class TiffDirectory {
     entries_ = Number(directory_, 2);
   }
 
-  // The value of a tag that is one whole number; 0 where it is missing.
+  // The value of a tag that is one whole number; 0 if it is missing.
   std::uint32_t Tag(std::uint32_t tag) const {
     constexpr std::uint32_t kShort = 3, kLong = 4;
     std::uint32_t value = 0;
@@ -164,7 +164,8 @@ std::optional<ImageSize> SizeOfTiff(const Header& file) {
   return Size(directory.Tag(kWidth), directory.Tag(kHeight));
 }
 
-// Return where the EXIF data of a file begin, which are a TIFF file; nullopt where there are none.
+// Return the beginning of the EXIF data of a file, which are a TIFF file; nullopt if there are
+// none.
 std::optional<std::size_t> ExifOfJpeg(const Header& file) {
   constexpr std::string_view kExif("Exif\0\0", 6);
   std::size_t at = 2;

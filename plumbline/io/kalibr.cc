@@ -14,7 +14,7 @@ Camera ReadCamera(const YamlSection& section) {
   return ReadModelCamera(section, {"resolution", "intrinsics", "distortion_coeffs"}, "radtan");
 }
 
-// What Kalibr does not know stands at the top of the file, or with the left camera.
+// Reads a number unknown to Kalibr, at the top of the file or with the left camera.
 std::optional<double> AddedNumber(const YamlSection& root, const std::string& key) {
   const YamlSection left = root.Child("cam0");
   if (!root.Has(key)) return left.Has(key) ? std::optional(left.Positive(key)) : std::nullopt;
@@ -22,8 +22,8 @@ std::optional<double> AddedNumber(const YamlSection& root, const std::string& ke
   return root.Positive(key);
 }
 
-// The place of the right camera: Kalibr's own, or what follows from the places of both cameras at
-// an inertial sensor, where there is nothing else, as OpenVINS writes it.
+// The pose of the right camera: Kalibr's own, or without it from the poses of both cameras at an
+// inertial sensor, as in files of OpenVINS.
 Rigid3 RightFromLeft(const YamlSection& left, const YamlSection& right) {
   if (!right.Has("T_cn_cnm1")) {
     const auto both = [&](const char* key) { return left.Has(key) && right.Has(key); };

@@ -43,8 +43,8 @@ std::optional<std::string> LeftCameraDifference(const Rectifier& rectifier, cons
                           {camera, rectifier.rectified_left_from_left()});
 }
 
-// The images are as large as the map's camera, whatever the data have: it was run on reduced ones
-// where they have more. Images that are turned are those of one camera.
+// The images get the size of the map's camera: the run reduced larger ones. Rotated images are
+// those of one camera.
 DatasetOptions AsUsedFor(const SavedMap& saved, DatasetOptions options) {
   if (!options.max_width) options.max_width = saved.camera.width;
   options.ground_truth = kNoGroundTruth;
@@ -80,10 +80,10 @@ std::vector<double> DifferingBits(const Features& features,
   return bits;
 }
 
-// Whether an image may be the one that a keyframe was made of. On MH_01, KITTI 07 and a rendered
-// room, the median over the features of a keyframe is 0 for the image itself, 8 where the run
-// applied a box filter of 5 x 5 pixels to it and 52 with 21 x 21, about 100 for the next image of
-// a camera that moves, and at least 115 for an image of something else.
+// Returns true if an image may be that of a keyframe. On MH_01, KITTI 07 and a rendered room, the
+// median over the features of a keyframe is 0 for the image itself, 8 if the run applied a box
+// filter of 5 x 5 pixels to it and 52 with 21 x 21, about 100 for the next image of a moving
+// camera, and at least 115 for an image of another scene.
 bool MayShow(const GrayImage& image, const KeyFrame& keyframe, double octave_scale) {
   constexpr std::size_t kFewest = 30;
   constexpr double kMostBits = 80;
@@ -147,8 +147,8 @@ KeyFrameImages::KeyFrameImages(const std::filesystem::path& path,
   CheckKeyFrames(saved);
 }
 
-// The difference of the images before they were reduced to the width of the map's, where sizes
-// differ: the size of the reduced ones is none that a user knows.
+// The difference of the images before their reduction to the width of the map's, if sizes differ:
+// users do not know the reduced size.
 std::string KeyFrameImages::DifferenceAsStored(const std::string& difference,
                                                const DatasetOptions& given,
                                                const SavedMap& saved) {

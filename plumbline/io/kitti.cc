@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where the images and times of a sequence are.
+// Paths of the images and times of a sequence.
 struct KittiLayout {
   bool raw = false;  // a drive of KITTI raw; else a sequence of KITTI odometry
   KittiCameras cameras;
@@ -56,16 +56,15 @@ KittiLayout FindLayout(const fs::path& path) {
   return {false, {0, PathExists(path / "image_1") ? std::optional(1) : std::nullopt}};
 }
 
-// Returns the size of most images, judged by a few that are spread over the sequence, since
-// calib.txt has none. An image of another size is then the one at fault, even where it is the
-// first.
+// Returns the size of most images, by a few spread over the sequence, since calib.txt has none. An
+// image of another size is then at fault, even the first.
 ImageSize SizeOfMost(const fs::path& path,
                      const KittiLayout& layout,
                      const std::vector<FrameFiles>& files) {
   constexpr std::size_t kAsked = 9;
   const std::size_t step = std::max<std::size_t>(1, files.size() / kAsked);
   std::vector<std::pair<ImageSize, int>> votes;
-  // The other images are read only where none of the few can be read.
+  // The other images are read only if none of the few can be read.
   for (std::size_t first = 0; first < step && votes.empty(); ++first) {
     for (std::size_t i = first; i < files.size(); i += step) {
       const Expected<ImageSize, ImageFailure> size = ReadImageSize(files[i].left);
@@ -103,7 +102,7 @@ fs::path RawCalibrationFile(const fs::path& path) {
                   kName));
 }
 
-// What the name of a drive says of its images.
+// Returns the kind of images by the name of a drive.
 KittiImages ImagesByName(const fs::path& path) {
   const std::string name = fs::absolute(path / ".").lexically_normal().parent_path().filename();
   return name.ends_with("_extract") ? KittiImages::kAsTaken : KittiImages::kRectified;
@@ -112,8 +111,8 @@ KittiImages ImagesByName(const fs::path& path) {
 // The calibration of a sequence.
 struct KittiCamera {
   CameraFile file;
-  std::string images;  // what the images are, for people; may be empty
-  // Poses of KITTI are of the rectified camera 0. Whether that is another than the left one.
+  std::string images;  // kind of images, for display; may be empty
+  // Poses of KITTI are of the rectified camera 0, which may differ from the left one.
   GroundTruth::Frame truth = GroundTruth::Frame::kCamera;
 };
 
@@ -152,7 +151,7 @@ KittiCamera ReadCalibration(const fs::path& path,
   camera.truth = GroundTruth::Frame::kBody;
   std::optional<Rigid3>& body_from_left = camera.file.calibration.body_from_left;
   if (body_from_left) return camera;
-  try {  // the camera that was given stands alone where the data has no calibration of its own
+  try {  // the given camera suffices if the data has no calibration of its own
     const KittiCameras left = {cameras.left, std::nullopt};
     body_from_left = ReadOwnCalibration(path, layout, left, files).file.calibration.body_from_left;
   } catch (const InputError&) {
@@ -173,7 +172,7 @@ std::map<std::size_t, fs::path> NumberedImages(const fs::path& folder) {
   return images;
 }
 
-// Returns the file of frame i, or where it would be beside the others.
+// Returns the file of frame i, or its expected path beside the others.
 fs::path ImageAt(const std::map<std::size_t, fs::path>& images,
                  const fs::path& folder,
                  std::size_t i) {

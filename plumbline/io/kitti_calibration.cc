@@ -27,7 +27,7 @@ struct CalibrationRow {
   int line = 0;
 };
 
-// Returns the one row of this name; throws InputError where there is none, or where two differ.
+// Returns the only row of this name; throws InputError if there is none, or if two differ.
 TextRow OnlyRow(const fs::path& file, const std::string& name) {
   std::optional<TextRow> found;
   for (const TextRow& row : ReadRows(file, ' ')) {
@@ -58,7 +58,7 @@ CalibrationRow ReadNumbers(const fs::path& file, const std::string& name, std::s
   return read;
 }
 
-// Throws InputError at the line of the file where there is a fault (plausible_calibration.h).
+// Throws InputError at the line of the file if there is a fault (plausible_calibration.h).
 void Refuse(const std::optional<std::string>& fault, const fs::path& file, int line) {
   if (fault) throw InputError(fmt::format("{}:{}: {}", file.string(), line, *fault));
 }
@@ -72,7 +72,7 @@ struct RectifiedProjection {
   double fy() const { return matrix(1, 1); }
   double cx() const { return matrix(0, 2); }
   double cy() const { return matrix(1, 2); }
-  // t: what is added to a point of camera 0 to have it in the frame of this camera.
+  // t: translation of points from the frame of camera 0 to that of this camera.
   Eigen::Vector3d FromCamera0() const {
     return {(matrix(0, 3) - cx() * matrix(2, 3)) / fx(),
             (matrix(1, 3) - cy() * matrix(2, 3)) / fy(),
@@ -110,7 +110,7 @@ Camera ToCamera(const RectifiedProjection& p, const fs::path& file, ImageSize si
   return CheckedCamera(k, file, p.line);
 }
 
-// Throws where the right camera has another projection than the left one, or is not to its right.
+// Throws if the right camera has another projection than the left one, or is not to its right.
 void CheckPair(const fs::path& file,
                const RectifiedProjection& left,
                const RectifiedProjection& right,

@@ -280,7 +280,7 @@ Map ReadMap(SectionReader& file, const AtlasContext& context) {
   return builder.Finish();
 }
 
-// Marks ids of one kind as taken; returns false where one was taken before.
+// Marks ids of one kind as taken; returns false for one taken before.
 class TakenIds {
  public:
   bool Take(std::int64_t id) {
@@ -293,7 +293,7 @@ class TakenIds {
   std::vector<char> taken_;
 };
 
-// Checks that no id is in two maps, and that the age of young landmarks is known.
+// Checks that no id is in two maps, and that the age of recent landmarks is known.
 void CheckAtlas(const SavedAtlas& saved, const std::string& source) {
   TakenIds keyframes, points, lines;
   const auto take = [&](TakenIds& taken, const auto& entries) {

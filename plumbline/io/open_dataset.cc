@@ -39,7 +39,7 @@ DatasetFormat DetectFormat(const fs::path& path) {
       "a folder of ros2 bag (.db3, .mcap) or a folder of images, found none of them");
 }
 
-// Returns the format of a file by its first bytes, or by its name where these are damaged.
+// Returns the format of a file by its first bytes, or by its name if these are damaged.
 DatasetFormat FormatOfFile(const fs::path& path) {
   std::array<std::uint8_t, 16> begin{};
   std::ifstream file(path, std::ios::binary);

@@ -17,8 +17,7 @@ namespace {
 
 constexpr std::size_t kMostRadTan = 5;  // k1, k2, p1, p2, k3
 
-// ROS names the model. OpenCV's programs say whether it is the one of cv::fisheye, or know only the
-// other one.
+// ROS names the model. OpenCV's programs mark that of cv::fisheye, or know only the other one.
 bool IsFisheye(const YamlSection& root) {
   if (!root.Has("distortion_model")) {
     return root.Has("fisheye_model") && root.Number("fisheye_model") != 0;

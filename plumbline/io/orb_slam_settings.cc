@@ -61,7 +61,7 @@ std::array<std::string, 4> IntrinsicsKeys(const std::string& prefix) {
   return {prefix + "fx", prefix + "fy", prefix + "cx", prefix + "cy"};
 }
 
-// Whether the file has any of these keys. If so, a key that is missing belongs to them.
+// Returns true if the file has any of these keys. If so, a missing key belongs to them.
 bool HasCamera(const YamlSection& root, const std::string& prefix) {
   const auto keys = IntrinsicsKeys(prefix);
   return std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return root.Has(key); });

@@ -62,7 +62,7 @@ const Encoding* Find(std::string_view name) {
   return nullptr;
 }
 
-// Returns why the pixels cannot be used as what is wanted.
+// Returns the reason why the pixels are unusable for the wanted contents.
 std::optional<ImageFailure> Fault(const std::filesystem::path& name,
                                   const RawPixels& pixels,
                                   ImageContents contents,
@@ -171,7 +171,7 @@ Expected<GrayImage, ImageFailure> GrayOfPixels(const std::filesystem::path& name
   if (Is16BitGray(pixels.encoding)) return GrayOf16Bits(pixels, *bits);
   const Encoding& encoding = *Find(pixels.encoding);
   GrayImage gray(static_cast<int>(pixels.width), static_cast<int>(pixels.height));
-  // OpenCV does not write to what it reads.
+  // OpenCV does not write to its input.
   const cv::Mat in(gray.height(),
                    gray.width(),
                    CV_8UC(encoding.bytes),
@@ -217,7 +217,7 @@ Expected<ColorImage, ImageFailure> ColorOfPixels(const std::filesystem::path& na
     return FromInterleaved(
         width, height, {pixels.data, pixels.step, encoding->bytes, red_first ? 0 : 2});
   }
-  // OpenCV does not write to what it reads.
+  // OpenCV does not write to its input.
   const cv::Mat in(PixelRows(pixels.encoding, height),
                    width,
                    CV_8UC(encoding->bytes),

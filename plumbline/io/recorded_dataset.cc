@@ -244,7 +244,7 @@ void NoteTopics(const RecordedTopics& topics,
   }
 }
 
-// Notes where depth is in the frame of another camera: drivers leave it so unless they are asked to
+// Adds a note if depth is in the frame of another camera: the default of drivers, unless they
 // register it to the image.
 void NoteFrames(const RecordedTopic& image, const RecordedTopic& depth, DatasetInfo& info) {
   if (image.frame.empty() || depth.frame.empty() || image.frame == depth.frame) return;
@@ -265,9 +265,9 @@ std::optional<int> BrightestOf(const Recording& file, const StoredMessage& place
   return image->compressed ? BrightestOf16Bits(image->data) : BrightestOf16Bits(PixelsOf(*image));
 }
 
-// Returns how many of 16 bits the grey levels use: what the brightest level of some frames needs,
-// which lie evenly in the recording, but 8, 10, 12, 14 or 16. ROS has no field that says it. Tells
-// in a note. Returns nullopt where the first frame has no such levels.
+// Returns the number of used bits of 16-bit grey levels: those of the brightest level of some
+// frames spread over the recording, rounded up to 8, 10, 12, 14 or 16. ROS has no field for it.
+// Adds a note. Returns nullopt if the first frame has no 16-bit levels.
 std::optional<int> BitsOf(const Recording& file,
                           const std::vector<FrameMessages>& frames,
                           DatasetInfo& info) {

@@ -28,7 +28,7 @@ namespace {
 constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kPairNames = {
     {{"cam0", "cam1"}, {"left", "right"}, {"infra1", "infra2"}, {"camera/", "camera_right/"}}};
 
-// Returns what the image was before it was compressed: "16UC1" for "16UC1; compressedDepth png".
+// Returns the encoding before compression: "16UC1" for "16UC1; compressedDepth png".
 std::string_view UnpackedEncoding(std::string_view format) {
   return format.substr(0, format.find(';'));
 }
@@ -44,8 +44,8 @@ TopicContents ContentsOf(const ImageMessage& image) {
   return either ? TopicContents::kEither : TopicContents::kDepth;
 }
 
-// Whether the stamp 0 of the first image is a time, as that of a simulation that begins at 0: no
-// other image has it, and the next one comes soon after. Otherwise 0 means that there is no stamp.
+// Returns true if the stamp 0 of the first image is a time, as in a simulation that begins at 0: no
+// other image has it, and the next one follows soon. Otherwise 0 means a missing stamp.
 bool BeginsAtZero(const std::vector<RecordedImage>& images) {
   constexpr std::int64_t kSoonNs = 60'000'000'000;
   if (images.size() < 2 || images[0].stamp_ns != 0 || images[1].stamp_ns > kSoonNs) return false;
@@ -54,7 +54,7 @@ bool BeginsAtZero(const std::vector<RecordedImage>& images) {
   });
 }
 
-// Whether a stamp is no time: negative, or so late that ROS has it for "never" (2^32 - 1 seconds).
+// Returns true if a stamp is no time: negative, or ROS's "never" (2^32 - 1 seconds) or later.
 bool IsNoTime(std::int64_t stamp_ns) { return stamp_ns < 0 || stamp_ns > kLatestStampNs; }
 
 // Gives images without a stamp the time when they were recorded. Returns how many there are.
@@ -72,7 +72,7 @@ std::size_t TakeTimesOfRecording(std::vector<RecordedImage>& images) {
 // Collects the messages that pass.
 class TopicCollector {
  public:
-  // `whole`: whether a message that is none of its type is an error, and not left out.
+  // `whole`: true if a malformed message is an error; false if it is left out.
   TopicCollector(std::string path, bool whole) : path_(std::move(path)), whole_(whole) {}
 
   void Take(const Channel& channel,

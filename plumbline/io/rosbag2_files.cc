@@ -87,7 +87,7 @@ std::vector<std::string> ListedIn(const fs::path& metadata) {
   return names;
 }
 
-// Adds what the metadata lists and the folder has, in that order.
+// Adds the files listed in the metadata and present in the folder, in that order.
 void TakeListed(const fs::path& folder,
                 const std::vector<std::string>& listed,
                 std::set<std::string> names,

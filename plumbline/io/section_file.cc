@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 32;
 constexpr int kLevel = 3;  // higher levels take several times as long and save some hundredths
-// No section of ours is compressed by more than this, which bounds what a forged file can ask for.
+// Limit of our compression ratio, which bounds the memory requested by a forged file.
 constexpr std::uint64_t kMaxRatio = 200;
 constexpr std::uint64_t kSmallBytes = 65536;  // allowed with any ratio
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 31;
@@ -35,7 +35,7 @@ bool IsAllowed(std::uint64_t size, std::uint64_t stored) {
   return size <= kMaxBytes && (size <= kSmallBytes || size / kMaxRatio <= stored);
 }
 
-// Returns the compressed contents; an empty string where compression does not help.
+// Returns the compressed contents; an empty string if compression does not help.
 std::string Compressed(std::string_view contents) {
   std::string packed(ZSTD_compressBound(contents.size()), '\0');
   const std::size_t size =

@@ -88,7 +88,7 @@ class PoseRows {
  public:
   PoseRows(path file, BadRows bad_rows) : file_(std::move(file)), bad_rows_(bad_rows) {}
 
-  // Calls `add`, which reads the row, and counts the row where it cannot be used.
+  // Calls `add`, which reads the row, and counts the row if it is unusable.
   template <typename Add>
   void Take(const TextRow& row, const Add& add) {
     if (bad_rows_ == BadRows::kRefuse) return add();
@@ -100,7 +100,7 @@ class PoseRows {
     }
   }
 
-  // Adds a pose behind those before it. Fails, or counts the row, where its time does not grow.
+  // Appends a pose. Fails, or counts the row, if its time does not increase.
   void Append(const TextRow& row, const StampedPose& pose) {
     const auto previous = poses_.empty() ? std::nullopt : std::optional(poses_.back().stamp_ns);
     if (bad_rows_ == BadRows::kRefuse) CheckStampOrder(file_, row.line, previous, pose.stamp_ns);
@@ -182,7 +182,7 @@ std::optional<TrajectoryFormat> FormatOf(const TextRow& row) {
   return std::nullopt;
 }
 
-// Whether the row begins with a number, as the names of columns do not.
+// Returns true if the row begins with a number, unlike names of columns.
 bool BeginsWithNumber(const TextRow& row) {
   return ParseNumber(std::string_view(row.fields[0]).substr(0, row.fields[0].find(',')))
       .has_value();
@@ -215,7 +215,7 @@ path KittiTimesFile(const path& file) {
   return is_distributed ? distributed : beside;
 }
 
-// Returns what ReadTrajectory would refuse about the pose at place i; nullopt where it accepts it.
+// Returns the fault of pose i for ReadTrajectory; nullopt if it is accepted.
 std::optional<std::string> FaultOf(const Trajectory& trajectory, std::size_t i) {
   const std::int64_t stamp_ns = trajectory[i].stamp_ns;
   if (!IsReadableStamp(stamp_ns)) {

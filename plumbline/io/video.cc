@@ -44,7 +44,7 @@ std::unique_ptr<VideoDecoder> OpenDecoder(const fs::path& path) {
   return decoder;
 }
 
-// What is known after going through a video once.
+// Results of one pass over a video.
 struct VideoContent {
   VideoProperties properties;
   ImageSize size;                       // of the first frame
@@ -230,7 +230,7 @@ void CheckSize(const DatasetInfo& info, const VideoContent& content) {
 }  // namespace
 
 std::unique_ptr<Dataset> OpenVideo(const fs::path& path, const DatasetOptions& options) {
-  OpenDecoder(path);  // a file that is no video is reported before what is missing for one
+  OpenDecoder(path);  // reports a file that is no video before missing inputs
   DatasetInfo info = DescribeDataset(path, DatasetFormat::kVideo, {SensorKind::kMono}, options);
   std::optional<CameraFile> camera = GivenCamera(path.parent_path(), options);
   if (!camera && !options.allow_missing_camera) throw InputError(NoCalibration(path));
