@@ -153,8 +153,8 @@ std::filesystem::path EstimateFile(const std::filesystem::path& path) {
                    "trajectory.txt in it");
 }
 
-// How many frames the estimate had; nullopt: unknown, as where there are more poses than frames,
-// which are of something else then.
+// Returns the number of frames of the estimate; nullopt: unknown, also with more poses than frames,
+// which then belong to another run.
 std::optional<std::size_t> FramesDelivered(const std::filesystem::path& estimate_file,
                                            const ReferenceTrajectory& reference,
                                            const Trajectory& estimate) {
@@ -173,8 +173,7 @@ LineMapFiles FilesOfLines(const CommandLine& line, const std::string& estimate) 
   return files;
 }
 
-// Compares the lines, where there are some, in the world of the reference. Returns them drawn where
-// that is asked for.
+// Compares the lines, if any, in the world of the reference. Returns a drawing if requested.
 std::optional<Figure> EvaluateLines(const CommandLine& line, Evaluation& evaluation) {
   const LineMapFiles files = FilesOfLines(line, evaluation.estimate);
   std::optional<LineMapInput> input = LoadLineMaps(files);
@@ -204,7 +203,7 @@ std::optional<Figure> EvaluateLines(const CommandLine& line, Evaluation& evaluat
   return LineMapFigure(input->truth, input->estimate, *evaluation.lines, evaluation.error.poses);
 }
 
-// What the command reads, as far as it is there.
+// Existing input files of the command.
 std::vector<std::filesystem::path> FilesRead(const CommandLine& line,
                                              const ReferenceTrajectory& reference,
                                              const std::vector<std::filesystem::path>& estimates) {

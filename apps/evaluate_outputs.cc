@@ -177,7 +177,7 @@ void WriteOutputs(const EvaluateOutputs& outputs, const std::vector<FileContents
   try {
     WriteFilesAtomically(files);
   } catch (...) {
-    std::error_code ignored;  // where it is not empty
+    std::error_code ignored;  // if it is not empty
     if (outputs.new_folder) fs::remove(*outputs.new_folder, ignored);
     throw;
   }

@@ -127,7 +127,7 @@ void AddLineRows(std::ostringstream& table, const std::vector<LineMapErrorAt>& r
       table, "  multiplicity", 2, rows, [](const LineMapErrorAt& at) { return at.multiplicity; });
 }
 
-// What makes a true line one that is asked for.
+// Criteria of the true lines that should be found.
 std::string AskedFor(const LineMapErrorOptions& options) {
   std::ostringstream text;
   if (options.viewers) {

@@ -33,7 +33,7 @@
 
 namespace plumbline {
 
-// Where runs go; of the command line.
+// Executors of the command line.
 enum class ExecutorKind { kLocal, kSlurm };
 constexpr auto EnumNames(std::type_identity<ExecutorKind>) {
   return std::array{std::pair{ExecutorKind::kLocal, "local"},
@@ -45,8 +45,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kProgram = "/proc/self/exe";
-// The most that may be asked for. A run is one of a variant on a sequence, a repeat a part of what
-// is computed.
+// Upper limits of options. A run is one of a variant on a sequence, a repeat a part of a
+// computation.
 constexpr int kMostRuns = 1000, kMostRepeats = 100'000, kMostJobs = 1000, kMostRetries = 100;
 constexpr int kLongestRun = 10'000'000;                     // seconds, 116 days
 constexpr int kLeastMemory = 1, kMostMemory = 1024 * 1024;  // MB
@@ -205,7 +205,7 @@ std::string SayRuns(std::size_t runs, std::size_t failed, const fs::path& out) {
                      (out / "table.html").string());
 }
 
-// Holds the figures against the limits, where there are some; they go into gate.md too.
+// Compares the figures with the limits, if any; they go into gate.md too.
 int CheckLimits(const Plan& plan, const std::vector<JobResult>& results, bool quiet) {
   const std::vector<GateLimit> limits = GateLimitsOf(plan.experiment.name);
   if (limits.empty()) return 0;
@@ -221,7 +221,7 @@ int CheckLimits(const Plan& plan, const std::vector<JobResult>& results, bool qu
   return broken > 0 ? 1 : 0;
 }
 
-// Flags that are about sequences and runs have no meaning for what computes by itself.
+// Flags about sequences and runs have no meaning for computed experiments.
 void RefuseFlagsOfRuns(const CommandLine& line, const std::string& name) {
   for (const char* flag : {"--data",
                            "--cache",
@@ -244,7 +244,7 @@ void RefuseFlagsOfRuns(const CommandLine& line, const std::string& name) {
   }
 }
 
-// The plans of a group's experiments. What cannot be planned is a part with a trouble.
+// The plans of a group's experiments. Experiments without a plan have `trouble` set.
 struct PlannedGroup {
   std::vector<Plan> plans;
   std::vector<GroupPart> parts;  // in the order of the group
@@ -294,7 +294,7 @@ PlannedGroup PlanGroup(const ExperimentGroup& group, const CommandLine& line) {
 int RunExperiment(const Experiment& experiment, const CommandLine& line) {
   const bool quiet = line.Has("--quiet");
   CheckExecutorFlags(line);
-  ReadRunnerOptions(line);  // what is wrong with them is said before anything is done
+  ReadRunnerOptions(line);  // reports errors before any work
   ReadJobs(line, 1);
   const Plan plan =
       MakePlan(experiment, ReadRequest(line, experiment, ReadOut(line), ProgramId(kProgram)));

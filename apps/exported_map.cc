@@ -83,7 +83,7 @@ class PointColorMeans {
   std::map<PointId, Sum> sums_;
 };
 
-// An image to read: of a keyframe, or of another frame where that is null.
+// An image to read: of a keyframe, or of another frame if that is null.
 struct WantedImage {
   std::int64_t stamp_ns = 0;
   std::string name;
@@ -115,7 +115,7 @@ std::vector<WantedImage> WantedImages(const SavedMap& saved,
 }
 
 // Reads all images, writes them into `folder` unless it is empty, and returns the colours of the
-// points in those of the keyframes; no colours where no images are known.
+// points in those of the keyframes; no colours without images.
 PointColors ReadImages(const SavedMap& saved,
                        const std::map<KeyFrameId, std::string>& names,
                        const MapExport& wanted,
@@ -134,7 +134,7 @@ PointColors ReadImages(const SavedMap& saved,
   return colors.Means();
 }
 
-// The colours of all points of a map in the order of their ids; none where none are known.
+// The colours of all points of a map in the order of their ids; none if unknown.
 std::vector<Color> ColorsInOrder(const Map& map, const PointColors& colors) {
   std::vector<Color> in_order;
   if (colors.empty()) return in_order;
@@ -206,7 +206,7 @@ bool IsFolder(ExportFormat format) {
   return format == ExportFormat::kColmap || format == ExportFormat::kNerfstudio;
 }
 
-// Whether two poses are the same but for the decimals that files leave out.
+// Returns true if two poses are equal up to the decimals of files.
 bool AreSame(const Rigid3& a, const Rigid3& b) {
   constexpr double kTolerance = 1e-6;
   return (a.translation - b.translation).norm() < kTolerance * (1 + b.translation.norm()) &&

@@ -15,7 +15,7 @@ namespace {
 
 using Clock = PlaybackSchedule::Clock;
 
-// Waits until it is `due`. Returns false where `go_on` says no before that.
+// Waits until it is `due`. Returns false if `go_on` returned false before.
 bool WaitUntil(Clock::time_point due, const FrameInput::GoOn& go_on) {
   constexpr std::chrono::milliseconds kAskEvery(50);
   while (go_on()) {

@@ -131,8 +131,8 @@ void PrintGroundTruth(const DatasetInfo& info) {
                   truth.path.string()));
 }
 
-// Why a frame cannot be used; nullopt: it can. An image of another size, which ends a run, is one
-// of those here.
+// Returns the fault of an unusable frame; nullopt if it is usable. An image of another size, which
+// ends a run, is a fault.
 std::optional<std::string> FaultOf(const Dataset& dataset, std::size_t i) {
   try {
     const Expected<SensorFrame, ImageFailure> frame = dataset.Read(i);
@@ -154,8 +154,8 @@ void CheckImages(const Dataset& dataset) {
   Row("checked", fmt::format("{} of {} frames can be used", dataset.size() - bad, dataset.size()));
 }
 
-// What is wrong with the images of the first frames, where they are stereo pairs that do not fit
-// the calibration. Frames that cannot be read are left out.
+// Returns the inconsistency between the first stereo pairs and the calibration, if any. Unreadable
+// frames are left out.
 std::optional<std::string> PairFaultOf(const Dataset& dataset) {
   if (!dataset.info().has_calibration || !dataset.calibration().right) return std::nullopt;
   const Rectifier rectifier(dataset.calibration());

@@ -52,7 +52,7 @@ constexpr std::array kCommands = {
     Command{"config", ConfigCommand, "all options with values and help, as a config file"},
 };
 
-// Commands that a build may lack, and what it has to be configured with to have them.
+// Commands that a build may lack, and the configuration needed for them.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kOptional = {{
     {"starts", "-DPLUMBLINE_LAB=ON"},
     {"synth", "-DPLUMBLINE_WORLDS=ON"},
@@ -106,18 +106,19 @@ int Dispatch(std::span<const std::string> arguments) {
   return FindCommand(arguments[1]).run(help);
 }
 
-// Whoever started the program may have closed its standard streams (`>&-`). The first files that it
-// opens would take their places, and what it prints would go into them.
+// Standard streams may be closed at the start (`>&-`). The first files opened would replace them,
+// and output would go into these.
 void OpenStandardStreams() {
   for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
     if (::fcntl(descriptor, F_GETFD) >= 0) continue;
-    if (::open("/dev/null", O_RDWR) != descriptor) return;  // the lowest free one, where it works
+    // the lowest free descriptor, if it works
+    if (::open("/dev/null", O_RDWR) != descriptor) return;
   }
 }
 
 std::terminate_handler terminate_before = nullptr;
 
-// What a library throws while it is loaded, or in a thread of its own, nobody catches.
+// Exceptions of a library while it is loaded, or in its own threads, are not caught.
 [[noreturn]] void SayOutOfMemory() {
   const std::type_info* thrown = abi::__cxa_current_exception_type();
   if (thrown != nullptr && *thrown == typeid(std::bad_alloc)) {

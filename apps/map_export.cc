@@ -103,7 +103,7 @@ ExportRequest ReadExportRequest(const CommandLine& line) {
   return request;
 }
 
-// What is written of a map of the file, with what goes into it.
+// Exports a map of the file.
 std::optional<std::string> Export(const CommandLine& line, const ExportRequest& request) {
   const std::string& name = line.Positional(0);
   SavedAtlas atlas = LoadAtlas(name);

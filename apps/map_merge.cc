@@ -73,7 +73,7 @@ Similarity3 ParseTransform(const std::string& text) {
   return transform;
 }
 
-// What is asked for, before a file is read.
+// The request, before a file is read.
 struct MergeRequest {
   std::string first, second;
   std::optional<Similarity3> first_from_second;  // none: to be found

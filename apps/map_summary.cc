@@ -240,7 +240,7 @@ std::string MapInfoJson(const std::filesystem::path& path, const SavedAtlas& sav
                {"unit", c.baseline > 0 ? "m" : "of the map"},
                {"maps", Json::array()}};
   for (const Map* map : MapsOf(saved.atlas)) json["maps"].push_back(MapJson(c, *map));
-  // A path need not be UTF-8; what is not becomes a replacement character.
+  // A path need not be UTF-8; invalid bytes become replacement characters.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

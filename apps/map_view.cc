@@ -32,7 +32,7 @@ CommandSyntax MapViewSyntax() {
            {"--view-origin", "URL", "another page that may connect; may be repeated"}}};
 }
 
-// plumbline.Frame of a keyframe of the map that is shown; null where there is none.
+// plumbline.Frame of a keyframe of the displayed map; null if there is none.
 SharedBytes PictureOf(const Atlas& atlas, ShownId id) {
   const KeyFrame* keyframe = atlas.active().Find(KeyFrameId{id});
   if (keyframe == nullptr) return nullptr;

@@ -47,7 +47,7 @@ std::string WhyNotMerged(MergeRefusal refusal) {
   throw BugError("a reason without words");
 }
 
-// The options that the first map was made with, as far as this program does what they say.
+// The options of the first map, as far as this program knows them.
 SlamOptions OptionsOf(const std::string& name, const AtlasContext& first, const Remark& remark) {
   return SavedOptionsOrDefault(
       first, name, "merging with the default options", remark, [](SlamOptions& options) {
@@ -56,8 +56,8 @@ SlamOptions OptionsOf(const std::string& name, const AtlasContext& first, const 
       });
 }
 
-// Throws where a transform moves a map farther than coordinates of files may lie from the origin,
-// or scales it by more than that: nothing can be computed with such places.
+// Throws if a transform moves a map farther than the largest valid coordinates of files, or scales
+// it by more than that: such positions are not computable.
 void CheckWithinReach(const Similarity3& transform) {
   const double farthest = transform.translation.cwiseAbs().maxCoeff();
   if (!(farthest <= kFarthest)) {

@@ -24,8 +24,8 @@ std::string Bar(std::size_t done, std::size_t total) {
   return "[" + std::string(filled, '#') + std::string(kWidth - filled, '.') + "] ";
 }
 
-// Cut where the terminal ends, since a line that wraps cannot be written over; padded to cover
-// what was there before.
+// Cut at the width of the terminal, since a wrapped line cannot be overwritten; padded to cover the
+// previous line.
 std::string OneLine(const std::string& text) {
   winsize window{};
   const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1;

@@ -66,15 +66,15 @@ std::optional<std::size_t> FramesBeside(const ReferenceTrajectory& reference) {
   return std::nullopt;
 }
 
-// The folder of the run that wrote this trajectory; nullopt: none. Files of other runs may lie
-// beside a trajectory that was copied: the list of the run's files says whether it is one of them.
-// Where there is no list, as in a folder to which some results of a run were copied, its name does.
+// The folder of the run that wrote this trajectory; nullopt: none. A copied trajectory may lie
+// beside files of other runs: the list of the run's files determines whether it is one of them.
+// Without a list, for example in a folder with copies of some results, its name does.
 std::optional<fs::path> FolderOfItsRun(const fs::path& trajectory) {
   const fs::path folder = fs::absolute(trajectory).parent_path();
   try {
     const std::optional<RunManifest> manifest = ReadRunManifest(folder);
     const std::string name = trajectory.filename().string();
-    // What a run that was killed left has no list either.
+    // A killed run has no list either.
     const bool listed = manifest && manifest->complete;
     const bool its = listed ? manifest->Lists(name) : IsRunFile(name);
     return its ? std::optional(folder) : std::nullopt;

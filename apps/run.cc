@@ -101,7 +101,7 @@ FrameSelection ReadRange(const CommandLine& line) {
   return range;
 }
 
-// 0 where no filter is asked for.
+// 0 without a filter.
 int ReadBlur(const CommandLine& line) { return line.Count("--blur", 0, {1, kWidestBlur}); }
 
 // The frames to process, by index in the data set.
@@ -129,7 +129,7 @@ struct RunSetup {
   ViewerOptions view;    // where the run is to be shown
 };
 
-// A camera does not wait. Standard input does: nothing is lost where its frames are processed one
+// A camera does not wait. Standard input does: nothing is lost if its frames are processed one
 // after the other.
 bool IsLiveByDefault(const std::string& name) {
   const auto kind = LiveKindOf(name);
@@ -220,12 +220,12 @@ RunFrames OpenLive(const CommandLine& line, const RunSetup& setup) {
   return input;
 }
 
-// What a run is told about beside its results, in one line.
+// Reports a note of a run beside its results, in one line.
 void Say(const std::string& note) {
   std::cerr << "plumbline: " << Printable(note, kLongestMessage) << '\n';
 }
 
-// Opens a recording. Where it lacks the sensor of the preset, the message names the preset.
+// Opens a recording. If it lacks the sensor of the preset, the message names the preset.
 std::unique_ptr<Dataset> OpenRecorded(const CommandLine& line) {
   try {
     return OpenDataset(line.Positional(0), ReadDatasetOptions(line));
@@ -236,7 +236,7 @@ std::unique_ptr<Dataset> OpenRecorded(const CommandLine& line) {
   }
 }
 
-// Says what of the data the preset does not use.
+// Reports the data that the preset does not use.
 void SayUnused(const CommandLine& line, const Dataset& dataset) {
   const auto preset = line.Value("--preset");
   if (!preset || line.Has("--sensor") || FindPreset(*preset).needs_stereo) return;
@@ -263,7 +263,7 @@ RunFrames OpenInput(const CommandLine& line, const RunSetup& setup) {
   return input;
 }
 
-// What the run reads.
+// Input files of the run.
 std::vector<RunInput> InputsOf(const CommandLine& line, const Dataset& dataset) {
   std::vector<RunInput> inputs = CommandInputs(line, dataset);
   if (const auto map = line.Value("--map")) inputs.push_back({*map, true});
@@ -325,7 +325,7 @@ void OpenViewer(const CommandLine& line, const RunSetup& setup, System& system, 
   }
 }
 
-// The options first: where they cannot be written, nothing can.
+// The options first: if they cannot be written, nothing can.
 void WriteOptions(const RunSetup& setup, RunFolder& folder) {
   folder.Write({"options.yaml", [&](const std::filesystem::path& path) {
                   WriteFileAtomically(path, setup.options_yaml);
@@ -352,7 +352,7 @@ void SayBefore(const Dataset& dataset,
   if (const auto& fault = dataset.info().ground_truth_fault) Say("no errors: " + *fault);
 }
 
-// What came of a live source, when it is known.
+// Records the frames of a live source, known at its end.
 void NoteFrames(const System& system, RunFrames& input) {
   DatasetInfo info = input.live->info();
   for (std::size_t i = 0; i < system.frames().size(); ++i) {
@@ -375,8 +375,8 @@ void Print(const System& system, const Dataset& dataset, const std::filesystem::
   if (!std::cout.flush() && errno == EPIPE) std::cout.clear();
 }
 
-// Shows the finished run until a signal comes, and answers what is asked about its maps. A run that
-// a signal has ended is shown no longer.
+// Shows the finished run until a signal comes, and answers requests about its maps. Returns at once
+// if a signal has ended the run.
 void KeepShowing(const CommandLine& line, const System& system, Viewer& viewer, bool quiet) {
   if (!line.Has("--stay") || FirstStopSignal()) return;
   if (!quiet) std::cerr << "plumbline: the view stays at " << viewer.url() << " (Ctrl-C ends it)\n";

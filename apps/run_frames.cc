@@ -138,8 +138,8 @@ class FrameFeed {
     result_.not_recorded = input_.viewer->RecordingFailure();
   }
 
-  // In the thread that feeds: as long as somebody who looks has paused the run. What is asked about
-  // the maps meanwhile is answered.
+  // In the feeding thread: waits while a viewer has paused the run. Requests about the maps are
+  // answered meanwhile.
   void WaitWhilePaused() {
     if (!input_.viewer || !input_.viewer->HoldsBack()) return;
     const auto start = Clock::now();
@@ -218,7 +218,7 @@ class FrameFeed {
     }
   }
 
-  // What the machine was short of becomes an InputError, once no more frames are on their way.
+  // Converts a shortage of the machine to an InputError, once no more frames are on their way.
   void NameShortage() {
     if (shortage_ == nullptr) return;
     result_.failure =
@@ -244,7 +244,7 @@ class FrameFeed {
   MemoryReserve reserve_;
   Progress progress_;
   RunJournal journal_;
-  std::shared_ptr<MapSaver> saver_;  // null where nothing is to be saved before the end
+  std::shared_ptr<MapSaver> saver_;  // null if nothing is saved before the end
   Clock::time_point saved_ = Clock::now();
   std::unique_ptr<FrameInput> frames_;
   StereoPairCheck pair_check_;

@@ -27,7 +27,7 @@
 namespace plumbline {
 namespace {
 
-// Why frames have no pose (FrameRecord::reason), in words.
+// Reasons of frames without a pose (FrameRecord::reason), in words.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kReasonsInWords = {
     {{"too_few_features", "too few points and lines are seen, or too few with depth"},
      {"too_few_matches", "too little of what was seen before is seen again"},
@@ -77,7 +77,7 @@ class ResultWriter {
     if (folder_.Write(file)) written_.push_back(file.name);
   }
 
-  // What does not fit into memory is left to the files that need it, which fail then.
+  // A lack of memory is left to the files that need the line maps, which then fail.
   void MakeLineMaps() const {
     const StopCheck stop = StepStop();
     try {
@@ -87,7 +87,7 @@ class ResultWriter {
     }
   }
 
-  // Whether it is the first time that a signal is seen.
+  // Returns true at the first observation of a signal.
   bool NoteSignal() {
     if (interrupted_) return false;
     interrupted_ = FirstStopSignal();
@@ -133,8 +133,8 @@ class ResultWriter {
     }
   }
 
-  // Whether an earlier run's results are worth more: this one has no pose, or it was cut off before
-  // its last frame and has fewer poses of the same data.
+  // Returns true if an earlier run's results are more valuable: this one has no pose, or it was
+  // interrupted before its last frame and has fewer poses of the same data.
   bool KeepsEarlier() const {
     const std::optional<EarlierRun> earlier = folder_.Earlier();
     if (!earlier) return false;
@@ -145,8 +145,8 @@ class ResultWriter {
     return cut_off && same && static_cast<std::size_t>(counts.in_trajectory) < earlier->poses;
   }
 
-  // The journal's files are gone but for those that are true to the end, where their final form
-  // could not be written.
+  // The journal's files are removed, except those still valid whose final form could not be
+  // written.
   std::optional<std::string> PutInPlace() {
     std::vector<std::string> kept = written_;
     kept.insert(kept.end(), {TrajectoryNames().causal, "frames.csv"});

@@ -229,7 +229,8 @@ StartResults Run(const Dataset& dataset, const Setup& setup, const StartPlan& pl
       });
 }
 
-// Whether an earlier call wrote the results of a folder: its starts.csv begins as ours do.
+// Returns true if an earlier call wrote the results of a folder, by the beginning of its
+// starts.csv.
 bool HasStarts(const std::filesystem::path& folder) {
   return FileBeginsWith(folder / kRecords, FormatStarts({}));
 }
@@ -244,7 +245,7 @@ void RefuseFilesOfOthers(const std::filesystem::path& folder) {
 }
 
 // The folder for the results. With drawings it has starts.csv from the beginning, so that they are
-// known as those of this command even where it is killed.
+// recognized as results of this command even if it is killed.
 void PrepareFolder(const Setup& setup, bool draws) {
   MakeFolder(setup.folder);
   for (const char* file : {kRecords, kSummary}) CheckWritable(setup.folder / file);
