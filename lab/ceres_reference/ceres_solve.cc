@@ -23,7 +23,7 @@
 namespace plumbline {
 namespace {
 
-// What both solvers have in common: one thread, an end by iterations or by the cost alone.
+// Options common to both solvers: one thread, termination by iterations or by the cost alone.
 ceres::Solver::Options CommonOptions(int max_iterations, double function_tolerance) {
   ceres::Solver::Options solver;
   solver.num_threads = 1;
@@ -212,7 +212,7 @@ CeresBaResult CeresBa::Solve() {
   return result;
 }
 
-// The terms of a pose problem, each with what the classification needs.
+// The terms of a pose problem, each with its input of the classification.
 class CeresPose {
  public:
   explicit CeresPose(const PoseProblem& problem) : problem_(problem) {

@@ -50,8 +50,8 @@ bool AddMeasured(const RectifiedCamera& camera,
   return true;
 }
 
-// Adds one line with its points where they are most likely: X = X0 - Sigma g r / v, where r is the
-// residual at X0 linearized at X and v = g^T Sigma g + sigma^2; the cost is then r^2 / v.
+// Adds one line with its most likely points: X = X0 - Sigma g r / v, with r the residual at X0
+// linearized at X and v = g^T Sigma g + sigma^2; the cost is then r^2 / v.
 bool AddAdjusted(const RectifiedCamera& camera,
                  const WeightedCut& term,
                  const Rigid3& motion,

@@ -99,7 +99,7 @@ std::vector<WeightedCut> Prepare(const CuttingProblem& problem, const Recipe& re
   return out;
 }
 
-// The problem as seen at a wrong prediction of the pose; nullopt where an end comes too near.
+// The problem at a wrong prediction of the pose; nullopt if an end comes too near.
 std::optional<CuttingProblem> At(const Rigid3& predicted_from_true, CuttingProblem problem) {
   const Eigen::Matrix3d rotation = predicted_from_true.rotation.toRotationMatrix();
   for (CuttableLine& line : problem.lines) {

@@ -84,7 +84,7 @@ Segment3 Move(const Rigid3& b_from_a, const Segment3& segment) {
   return {b_from_a * segment.start, b_from_a * segment.end};
 }
 
-// How an end is measured in the camera where it was first seen.
+// Noise of an end in the camera that saw it first.
 struct EndNoise {
   Rigid3 cam_from_anchor;
   double sigma_px = 0;

@@ -18,7 +18,7 @@
 namespace plumbline {
 namespace {
 
-// Only what may be called between fork and exec.
+// Only functions that are safe between fork and exec.
 [[noreturn]] void Become(char* const* arguments, int log, pid_t parent, rlim_t memory) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);

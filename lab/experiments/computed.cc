@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What an experiment has computed.
+// Results of an experiment.
 struct Computed {
   std::vector<FigureRow> figures, times;
   std::vector<PagePlot> plots;
@@ -32,7 +32,7 @@ void Write(const ComputedExperiment& self, const Computed& computed, const fs::p
   WriteFileAtomically(out / "table.md",
                       FormatFigureMarkdown(self.name, self.help, computed.figures, self.metrics) +
                           FormatComparisonMarkdown(comparison));
-  // Where times are what it is about the page has them as well.
+  // If times are its subject, the page has them as well.
   std::vector<FigureRow> all = computed.figures;
   if (self.exclusive) {
     all.insert(all.end(), computed.times.begin(), computed.times.end());

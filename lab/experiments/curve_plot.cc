@@ -49,7 +49,7 @@ Eigen::AlignedBox2d RangeOf(const CurvePanel& panel) {
   return {range.min(), end.cwiseMax(range.min() + Vector2d::Constant(1e-9))};
 }
 
-// The points up to the right end of the panel; what is above it is drawn at its edge.
+// The points up to the right end of the panel; values above its top are drawn at its edge.
 void DrawCurve(
     const Curve& curve, const FigurePanel& panel, bool dots, Figure::Color color, Figure& figure) {
   Figure::Polyline line{{}, color, 2};

@@ -92,7 +92,7 @@ bool IsWithin(const GateLimit& limit, double value) {
   return limit.at_most ? value <= *limit.at_most : value >= *limit.at_least;
 }
 
-// The figure of a run; the reason where there is none.
+// The figure of a run, or the reason if there is none.
 Expected<double, std::string> FigureOf(const JobResult& result, const std::string& metric) {
   if (!result.figures) return result.reason;
   const auto value = result.figures->values.find(metric);
@@ -101,7 +101,7 @@ Expected<double, std::string> FigureOf(const JobResult& result, const std::strin
   return reason == result.figures->reasons.end() ? "not measured" : reason->second;
 }
 
-// What a limit is held against.
+// The value compared with a limit.
 double Summary(const GateLimit& limit, const std::vector<double>& figures) {
   if (limit.of_mean) return Mean(figures);
   const auto [least, most] = std::minmax_element(figures.begin(), figures.end());

@@ -38,7 +38,7 @@ std::vector<JobExecutor::Ended> LocalExecutor::Poll() {
       how.trouble = NoEndAfter(it->task.limit_s);
     }
     ended.push_back({it->id, how});
-    it = running_.erase(it);  // kills it where it still runs
+    it = running_.erase(it);  // kills it if it still runs
   }
   return ended;
 }

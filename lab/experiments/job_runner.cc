@@ -48,14 +48,14 @@ std::string LastWords(const Plan& plan, const Job& job) {
   }
   const std::string prefix = "plumbline: ";
   if (last.starts_with(prefix)) last.erase(0, prefix.size());
-  // Where things are does not belong into results.
+  // Results contain no paths.
   ReplaceAll(last, plan.SequenceOf(job).path.string(), plan.SequenceOf(job).name);
   ReplaceAll(last, plan.out.string(), "OUT");
   return last;
 }
 
-// What a program with too little memory says, of which there are more ways than one: threads need
-// memory, and so do the libraries it is made of.
+// Returns true if words are the output of a program with too little memory, of which there are
+// several kinds: threads need memory, and so do its libraries.
 bool SaysThatMemoryRanOut(const std::string& words) {
   return words == "no further thread can be started" ||
          words.find("failed to map segment") != std::string::npos;
@@ -76,14 +76,14 @@ std::string WhyFailed(const Plan& plan,
   return job.computed ? "no results.json" : "no summary.json";
 }
 
-// Whether a program ended well, or found no pose in the whole sequence, which is a result.
+// Returns true if a program ended well, or found no pose in the whole sequence, which is a result.
 bool HasResult(const Plan& plan, const Job& job, const TaskEnd& end) {
   if (!end.trouble.empty() || end.signal) return false;
   return end.code == 0 ||
          (end.code == 1 && LastWords(plan, job).starts_with("no frame has a pose"));
 }
 
-// Whether it may go well another time.
+// Returns true if a retry may succeed.
 bool IsWorthAnotherTry(const TaskEnd& end) {
   constexpr int kBadInput = 2;
   if (!end.trouble.empty()) return end.by_machine;

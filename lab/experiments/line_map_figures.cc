@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr double kTolerance = 0.05;  // metres
 
-// nullopt where the run left no list of its keyframes.
+// nullopt if the run has no list of its keyframes.
 std::optional<LineViewers> KeyFrameViewers(const Dataset& dataset,
                                            const fs::path& run,
                                            const TrajectoryError& trajectory) {
@@ -59,7 +59,7 @@ LineMapErrorAt CompareLinesOfRun(const Dataset& dataset,
   return CompareLineMaps(truth, lines, surfaces, options).at[0];
 }
 
-// Whether there are true lines and a trajectory to be read (an empty one is no file to be read).
+// Returns true if true lines and a non-empty trajectory exist.
 bool CanCompareLines(const fs::path& sequence, const RunFigures& figures) {
   std::error_code error;
   const auto coverage = figures.values.find("coverage");
@@ -80,9 +80,9 @@ void AddLineFigure(const char* name,
   }
 }
 
-// How far the further end of a line is from the true line that it is from least, ends included:
-// what is off to the side, turned, or pulled along beyond the true end. The median of all lines;
-// nullopt where there is no line or no true one.
+// Returns the distance of the further end of a line from the nearest true line, ends included: it
+// measures offset to the side, rotation, and excess length. The median of all lines; nullopt
+// without lines or true lines.
 std::optional<double> MedianEndError(std::span<const TrueLine> truth,
                                      std::span<const Segment3> lines) {
   if (truth.empty()) return std::nullopt;

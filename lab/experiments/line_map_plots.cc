@@ -42,8 +42,8 @@ struct RunLines {
   std::vector<Segment3> lines;
 };
 
-// What all columns show: the coordinates right, ahead and up of a point of the world, their names,
-// and how much of them.
+// View common to all columns: the coordinates right, ahead and up of a point of the world, their
+// names, and their ranges.
 struct LineScene {
   std::function<Vector3d(const Vector3d&)> to_view;
   std::array<std::string, 3> axes;
@@ -73,7 +73,7 @@ std::vector<RunLines> FirstRunsOn(const Plan& plan,
       auto lines = ReadLinesInTrueWorld(job.folder / "map.plb", *trajectory);
       runs.push_back({&job, plan.VariantOf(job).name, *std::move(trajectory), std::move(lines)});
     } catch (const InputError&) {
-      continue;  // the table says what failed
+      continue;  // the table reports the failure
     }
   }
   return runs;
@@ -110,7 +110,7 @@ Eigen::AlignedBox3d RangeOfLines(const std::vector<RunLines>& runs, const LineSc
   return range.extend(low).extend(high);
 }
 
-// The lines of a run with their colours, what is wrong at the back.
+// The lines of a run with their colours, wrong ones at the back.
 std::vector<std::pair<Segment3, Figure::Color>> Colored(const RunLines& run,
                                                         const LineScene& scene) {
   std::vector<std::pair<Segment3, Figure::Color>> colored;

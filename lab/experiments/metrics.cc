@@ -15,8 +15,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Where a metric stands in summary.json: value = factor * number [/ divisor]. Without a number it
-// comes from elsewhere (line_map_figures.h).
+// Source of a metric in summary.json: value = factor * number [/ divisor]. Without a number the
+// source is elsewhere (line_map_figures.h).
 struct Source {
   const char* number = nullptr;
   double factor = 1;

@@ -43,7 +43,7 @@ double ErrorOfPairs(const std::vector<EvaluatedPose>& poses) {
   return std::sqrt(sum / static_cast<double>(pairs));
 }
 
-// Frames up to the one of this stamp; nullopt where it is not in the list.
+// Number of frames up to that of this stamp; nullopt if it is not in the list.
 std::optional<int> CountFrames(const std::filesystem::path& list, const std::string& stamp) {
   std::ifstream file(list);
   std::string line;

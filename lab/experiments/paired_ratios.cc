@@ -77,8 +77,7 @@ void SetRatio(const std::vector<double>& logs, PairedRatio& out) {
   }
 }
 
-// A number of the map of one start; nullopt where it is not known, or the metric is not of this
-// kind.
+// A number of the map of one start; nullopt if it is unknown, or the metric is not of this kind.
 std::optional<double> StartFigure(const StartRecord& start, std::string_view metric) {
   if (!start.map) return std::nullopt;
   const StartErrors& errors = start.map->errors;
@@ -90,8 +89,8 @@ std::optional<double> StartFigure(const StartRecord& start, std::string_view met
   return std::nullopt;
 }
 
-// The logarithm of the ratio of two starts at one first frame; nullopt where not both are right, or
-// not from one reference frame.
+// The logarithm of the ratio of two starts at one first frame; nullopt if one is not right, or
+// their reference frames differ.
 std::optional<double> StartLog(const StartRecord& start,
                                const StartRecord& reference,
                                std::string_view metric) {

@@ -56,8 +56,8 @@ std::vector<std::string> With(std::vector<std::string> settings,
   return settings;
 }
 
-// What tables 1 and 2 have in common: all data but for the last world, what is told of runs but for
-// the last metric; the first variant is the reference.
+// Parts common to tables 1 and 2: all data but for the last world, all figures but for the last
+// metric; the first variant is the reference.
 Experiment RipplTable(std::vector<SequenceChoice> sequences,
                       const char* last_world,
                       std::vector<Variant> variants,
@@ -134,7 +134,7 @@ Experiment RipplFigure6() {
   e.help =
       "Lee and Hwang 2019, figure 6: landmarks of the beginning and those made when the camera is "
       "back, loops open, by the way the map begins";
-  // Once round a room, back to where it began.
+  // Once round a room, back to the start.
   e.sequences = {Tum("freiburg3_long_office_household", "fr3_long_office"),
                  {"worlds/room", {"rate_hz=15", "frames=150"}, "round"}};
   e.variants = RipplTable1().variants;
@@ -326,7 +326,7 @@ std::vector<Variant> CuttingSystems() {
           DefaultSystem({})};
 }
 
-// What tables 1 to 3 have in common: ratios are to the paper's system.
+// Parts common to tables 1 to 3: ratios are to the paper's system.
 Experiment CuttingTable() {
   Experiment e;
   e.variants = CuttingSystems();

@@ -16,19 +16,19 @@ namespace {
 
 constexpr const char* kNotThere = "-";
 
-// Where the figures of one metric are in a table of results.
+// Index of the figures of one metric in a table of results.
 class OurFigures {
  public:
   OurFigures(const Plan& plan, const ResultTable& table, std::size_t column)
       : plan_(plan), table_(table), column_(column) {}
 
-  // Empty where there is no such variant, "-" where it has no figure.
+  // Empty if the variant does not exist, "-" if it has no figure.
   std::string Cell(std::size_t sequence, const std::string& variant) const {
     const TableRow* row = Find(sequence, variant);
     return row == nullptr ? "" : CellText(*row, row->cells[column_], *table_.columns[column_]);
   }
 
-  // Runs that count: once where all of these variants have the same, else for each.
+  // Counted runs: once if all of these variants have the same, otherwise for each.
   std::string Runs(std::size_t sequence, const std::vector<std::string>& variants) const {
     std::vector<std::string> runs;
     for (const std::string& variant : variants) {
@@ -134,7 +134,7 @@ std::optional<ComparedTable> Compare(const Plan& plan,
   return out;
 }
 
-// Ours beside what a paper prints for systems that are not ours: their column alone.
+// Returns false for a column of a paper about another system, without a counterpart of ours.
 bool HasOurs(const ComparedTable& table, std::size_t variant) {
   return std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
     return !row.ours[variant].empty() && row.ours[variant] != kNotThere;

@@ -206,7 +206,7 @@ void AddPerJob(const Plan& plan,
       out.push_back({(revisits ? "revisits_" : "cut_lines_") + name,
                      revisits ? ToSvg(RevisitPlot(plan, job)) : CutLinePlot(plan, job)});
     } catch (const InputError&) {
-      continue;  // the table says what failed
+      continue;  // the table reports the failure
     }
   }
 }
@@ -224,7 +224,7 @@ void AddLinePlots(const Plan& plan,
       out.push_back(
           {(area ? "line_area_" : "line_maps_") + NameForPlot(plan.sequences[s].name), svg});
     } catch (const InputError&) {
-      continue;  // the table says what failed
+      continue;  // the table reports the failure
     }
   }
 }

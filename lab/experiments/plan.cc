@@ -64,7 +64,7 @@ bool IsChosen(const std::string& name, const std::vector<std::string>& only) {
          });
 }
 
-// Where the sequence is written backwards. Another sequence of this name is another folder.
+// Folder of the reversed sequence. Different sequences of one name have different folders.
 std::filesystem::path ReversedFolder(const ExperimentSequence& sequence,
                                      const PlanRequest& request) {
   const std::string& identity = sequence.identity;
@@ -113,7 +113,7 @@ Job MakeJob(const ExperimentSequence& sequence,
   return job;
 }
 
-// The number of an argument of a job, "--to 100"; nullopt where the job has none.
+// The number of an argument of a job, "--to 100"; nullopt if the job has none.
 std::optional<double> NumberOf(const Job& job, const char* argument) {
   const auto at = std::find(job.command.begin(), job.command.end(), argument);
   if (at == job.command.end() || at + 1 == job.command.end()) return std::nullopt;

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kResults = "results.json";
 
-// Whether an experiment wrote the tables of a folder: its results.json begins as ours do.
+// Returns true if an experiment wrote the tables of a folder, by the beginning of its results.json.
 bool HasResults(const fs::path& out) {
   const std::string list = FormatFigureList("", std::vector<FigureRow>(1));
   const std::string first_key = list.substr(0, list.find(':'));
@@ -25,7 +25,7 @@ bool HasResults(const fs::path& out) {
          FileBeginsWith(out / kResults, "[\n\n]");
 }
 
-// Whether the tables have a file of this name.
+// Returns true if the tables have a file of this name.
 bool IsTable(const std::string& name) {
   constexpr std::array kNames = {kResults,
                                  "table.md",

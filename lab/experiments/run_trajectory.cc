@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Whether a run was of a single camera; kStereo stands for all sensors that measure depth.
+// Returns the sensor of a run; kStereo stands for all sensors that measure depth.
 SensorKind SensorOf(const fs::path& run) {
   const auto summary = nlohmann::json::parse(ReadInputFile(run / "summary.json"), nullptr, false);
   const bool mono =

@@ -44,7 +44,7 @@ double MegapixelsOf(const DatasetInfo& info) {
   return info.sensor == SensorKind::kStereo ? 2 * image : image;
 }
 
-// Whether a name is that of the choice: its pattern, or of a paper's sequence a part of it.
+// Returns true if a name is that of the choice: its pattern, or a part of a paper's sequence.
 bool IsChosenName(const std::string& name, const SequenceChoice& choice) {
   if (MatchesPattern(name, choice.pattern)) return true;
   return !choice.paper.empty() && MatchesPattern(name, choice.pattern + "_first*");
@@ -123,7 +123,7 @@ ExperimentSequence Recorded(const std::string& folder, const fs::path& path) {
     sequence.frames = dataset->size();
     sequence.megapixels = MegapixelsOf(dataset->info());
   } catch (const InputError& error) {
-    // What is wrong, wherever the data lies.
+    // The identity does not depend on the path of the data.
     const std::string message = error.what(), root = path.string();
     const auto place = message.find(root);
     sequence.identity = message;
@@ -186,7 +186,7 @@ std::vector<ExperimentSequence> RenderedSequences(const SequenceChoice& choice,
   return sequences;
 }
 
-// With what users need to get it.
+// Adds the source of the data for users.
 std::string Described(const SequenceChoice& choice) {
   const std::string name = Labelled(choice.pattern, choice);
   if (choice.paper.empty() && choice.source.empty()) return name;

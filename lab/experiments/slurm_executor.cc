@@ -83,7 +83,7 @@ bool IsAlive(std::string_view state) {
   return std::find(kAlive.begin(), kAlive.end(), state) != kAlive.end();
 }
 
-// What a task has left: exit code and seconds; nullopt where nothing, or something of another one.
+// Result left by a task: exit code and seconds; nullopt if there is none, or that of another task.
 std::optional<TaskEnd> ReadEnd(const fs::path& folder, const std::string& batch, int index) {
   std::ifstream file(folder / kEnd);
   std::string its_batch;
@@ -326,7 +326,7 @@ std::optional<TaskEnd> SlurmExecutor::EndOf(Open& open) {
     if (end->signal == kKill && end->seconds + 1 >= open.task.limit_s) {
       end->trouble = NoEndAfter(open.task.limit_s);
     }
-    // Seen once: another call is to try again what has failed.
+    // Seen once: another call retries failed tasks.
     std::error_code error;
     fs::remove(open.task.folder / kEnd, error);
     return end;

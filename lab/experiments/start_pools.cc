@@ -20,7 +20,7 @@ bool IsIn(const SequencePool& pool, const std::string& sequence) {
   });
 }
 
-// The jobs of a pool by what they have in common.
+// The jobs of a pool, grouped by variant and run.
 using JobsOfRuns = std::map<std::pair<std::size_t, int>, std::vector<std::size_t>>;
 
 JobsOfRuns JobsOf(const Plan& plan, const SequencePool& pool) {

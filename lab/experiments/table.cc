@@ -40,7 +40,7 @@ bool LostTheCamera(const RunFigures& run) {
   return coverage == run.values.end() || coverage->second < 100 - kCoverageGap;
 }
 
-// Runs with a result; where failures are tolerated only so far, those that lost the camera are
+// Runs with a result; if failures are tolerated up to a limit, runs that lost the camera are
 // failures too.
 std::vector<const RunFigures*> WithResult(const Group& group, const Experiment& experiment) {
   std::vector<const RunFigures*> good;
@@ -154,7 +154,7 @@ void AddFailures(const std::vector<Group>& groups, ResultTable& table) {
   }
 }
 
-// What would be taken for the end of a cell.
+// Escapes characters that would end a cell.
 std::string Escaped(const std::string& text) {
   std::string escaped;
   for (const char c : text) escaped += c == '|' ? "\\|" : std::string(1, c);

@@ -140,7 +140,7 @@ std::string Variants(const Plan& plan) {
   return html + "</ul>\n";
 }
 
-// What failed or is not there; nothing where all is well.
+// Failed and missing runs; empty if there are none.
 std::string Gaps(const Plan& plan, const ResultTable& table) {
   const std::vector<std::string> failures = FailureTexts(plan, table);
   if (plan.missing.empty() && failures.empty()) return "";

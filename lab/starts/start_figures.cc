@@ -60,7 +60,7 @@ double Percentile(std::vector<double> values, double share) {
 Figures FiguresOf(std::span<const StartRecord> records) {
   Figures figures;
   AddCounts(records, figures);
-  // Those of the maps; values that are not known are left out.
+  // Figures of the maps; unknown values are left out.
   const auto add = [&](const std::string& name, bool with_p95, double factor, const auto& value) {
     std::vector<double> values;
     for (const StartRecord& record : records) {

@@ -38,7 +38,7 @@ std::optional<double> GreatestParallaxDeg(const StartRange& range,
 
 int IndexOf(const InitialView& view) { return static_cast<int>(view.frame.id.value); }
 
-// What is known of the map, but frames and seconds.
+// Description of the map, without frames and seconds.
 StartMap DescribeMap(const InitializationResult& result,
                      const StartTruth& truth,
                      const RectifiedCamera& camera) {
