@@ -24,7 +24,7 @@ std::string ShapeText(const Shape& shape) {
   throw InputError(fmt::format("{}: expected {}, found {}", name, expected, Describe(found)));
 }
 
-// What numpy makes of it; nothing is converted but lists.
+// Converts a value to a numpy array; only lists are converted.
 py::array AsArray(py::handle value, const char* name, const std::string& expected) {
   if (value.is_none() || py::isinstance<py::str>(value)) Fail(name, expected, value);
   py::array array = py::array::ensure(value);
@@ -128,7 +128,7 @@ Rigid3 PoseOf(const double* numbers, const char* name) {
   return {RotationOf(matrix.topLeftCorner<3, 3>(), name), matrix.topRightCorner<3, 1>()};
 }
 
-// Whether it is one number: of Python or of numpy, or an array without axes.
+// Returns true for one number: of Python or of numpy, or an array without axes.
 bool IsScalar(py::handle value) {
   return py::isinstance<py::float_>(value) || py::isinstance<py::int_>(value) ||
          (py::hasattr(value, "ndim") && value.attr("ndim").cast<int>() == 0);

@@ -29,7 +29,7 @@
 namespace plumbline::python {
 namespace {
 
-// How images are prepared, by the names of Python.
+// Preparation of images, by the names of Python.
 struct Preparation {
   std::optional<std::filesystem::path> ground_truth;
   std::string rotate;
@@ -62,7 +62,7 @@ std::size_t IndexOf(const Dataset& dataset, py::ssize_t i) {
   return static_cast<std::size_t>(i < 0 ? i + size : i);
 }
 
-// nullopt where an image is missing or damaged; of another size it is bad input to the whole run.
+// nullopt if an image is missing or damaged; another size is bad input to the whole run.
 std::optional<PyFrame> ReadIfWhole(const Dataset& dataset, py::ssize_t i) {
   const std::size_t index = IndexOf(dataset, i);
   const py::gil_scoped_release release;

@@ -23,7 +23,7 @@ struct Rank1Input {
   std::vector<Rank1View> views;
 };
 
-// A place counts where its sigma is greater than 0, and may be anything elsewhere.
+// A position counts if its sigma is greater than 0, and is ignored otherwise.
 Rank1View ReadView(const double* places,
                    const double* sigmas,
                    std::size_t count,

@@ -23,7 +23,7 @@ class Worker {
   explicit Worker(const std::function<void(const StopCheck&)>& work)
       : thread_([this, &work] { Do(work); }) {}
 
-  // Whether it was done within the time.
+  // Returns true if the work was done within the time.
   bool WaitFor(std::chrono::milliseconds time) {
     std::unique_lock lock(mutex_);
     return done_.wait_for(lock, time, [this] { return is_done_; });

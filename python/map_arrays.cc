@@ -42,7 +42,7 @@ py::array RowsToArray(const std::vector<Row>& rows) {
   return py::array_t<Row>(static_cast<py::ssize_t>(rows.size()), rows.data());
 }
 
-// What all observations of a point tell of its place in the world, the poses taken as known.
+// Information of all observations of a point about its position in the world, with exact poses.
 Eigen::Matrix3d InformationOf(const PyMap& map, const MapPoint& point) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   for (const auto& [keyframe, feature] : point.observations) {

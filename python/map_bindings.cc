@@ -81,7 +81,7 @@ auto Frozen(const Make& make) {
   return [make](const PyMap& map) { return ReadOnly(make(map)); };
 }
 
-// What a map gives out but its arrays.
+// Outputs of a map other than its arrays.
 void BindMapOutputs(py::class_<PyMap>& bound) {
   bound
       .def(

@@ -41,7 +41,7 @@ KeyFrameImages ImagesOf(const ImageSource& source, const SavedMap& saved) {
   return KeyFrameImages(std::get<std::shared_ptr<Dataset>>(source), saved);
 }
 
-// The poses of the frames of the run, and what messages call them.
+// The poses of the frames of the run, and their name in messages.
 std::pair<std::string, Trajectory> FramePosesOf(const PyMap& map,
                                                 const std::optional<PoseSource>& source) {
   if (source && std::holds_alternative<PoseList>(*source)) {

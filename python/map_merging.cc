@@ -21,7 +21,7 @@ Similarity3 ReadSimilarity(py::handle value, const char* name) {
   const Doubles array = ReadDoubles(value, name, {4, 4});
   Eigen::Matrix4d matrix =
       Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(array.data());
-  // For a mirror it is negative, for a flat matrix 0: then what is left is no rotation.
+  // Negative for a mirror, 0 for a flat matrix: the remainder is then no rotation.
   const double scale = std::cbrt(matrix.topLeftCorner<3, 3>().determinant());
   const bool scaled = scale > 0 && std::abs(scale - 1) > 1e-9;
   if (scaled) matrix.topLeftCorner<3, 3>() /= scale;

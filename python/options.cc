@@ -81,7 +81,7 @@ py::dict OptionsOfRun(const RunArguments& arguments, const py::kwargs& given) {
   return ValuesOf(OptionTable(options));
 }
 
-// Whether an option of the group slam is given by its dotted key or in a dictionary.
+// Returns true if an option of the group slam is given by its dotted key or in a dictionary.
 bool IsGiven(const py::dict& given, const char* name) {
   if (given.contains("slam." + std::string(name))) return true;
   return given.contains("slam") && py::isinstance<py::dict>(given["slam"]) &&

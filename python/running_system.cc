@@ -15,7 +15,7 @@
 namespace plumbline::python {
 namespace {
 
-// An image has the size of the calibration, and is there where it is needed and only there.
+// An image must have the size of the calibration, and exist exactly if it is required.
 template <class T>
 void CheckImage(const char* name, const Image<T>& image, const Calibration& calibration) {
   const int width = calibration.left.width(), height = calibration.left.height();
@@ -67,7 +67,7 @@ FrameRecord RunningSystem::Process(SensorFrame frame) {
     awaited_ns_.reset();
     if (awaited_) return *std::exchange(awaited_, std::nullopt);
   }
-  // Tracking failed: completes what there is, and says why.
+  // Tracking failed: completes the mapping so far, and rethrows the reason.
   finished_ = true;
   pipeline_.Finish();
   throw BugError("a frame has no record");

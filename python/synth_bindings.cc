@@ -61,7 +61,7 @@ PyFrame RenderFrame(const SyntheticSequence& sequence, py::ssize_t index) {
   return frame;
 }
 
-// Told to end by what it is to tell of its progress.
+// Thrown if the progress callback requests a stop.
 struct Stopped {};
 
 int WriteWorld(const std::string& world,

@@ -212,7 +212,7 @@ py::list NewEventsOf(RunningSystem& system) {
   return list;
 }
 
-// The files of `plumbline run --out`, but for what a program alone can tell (exit by a signal).
+// The files of `plumbline run --out`, without data known only to programs (exit by a signal).
 std::filesystem::path WriteRun(RunningSystem& system,
                                RunFolder& folder,
                                const std::shared_ptr<Dataset>& dataset,

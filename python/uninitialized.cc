@@ -8,7 +8,7 @@ namespace {
 
 namespace py = pybind11;
 
-// What pybind11 calls for the memory of a value that is used and was never made.
+// Called by pybind11 for the memory of a value that was never initialized.
 void* RefuseMemory(std::size_t /*bytes*/) {
   throw py::type_error("expected an object that __init__ made, found one that __new__ alone made");
 }
