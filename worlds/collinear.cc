@@ -26,7 +26,7 @@ std::uint64_t KeyOf(const Vector3d& point) {
       index(point.x()), index(point.y()), MixBits(static_cast<std::uint64_t>(index(point.z()))));
 }
 
-// Whether the shorter lies along the line of the longer.
+// Returns true if the shorter segment lies along the line of the longer.
 bool AreCollinear(const Segment3& a, const Segment3& b, double across) {
   const Segment3& longer = a.Length() >= b.Length() ? a : b;
   const Segment3& shorter = a.Length() >= b.Length() ? b : a;
@@ -34,7 +34,7 @@ bool AreCollinear(const Segment3& a, const Segment3& b, double across) {
   for (const Vector3d& end : {shorter.start, shorter.end}) {
     if ((end - longer.start).cross(along).norm() > across) return false;
   }
-  // What is hardly longer than the tolerance lies along anything.
+  // A segment hardly longer than the tolerance is collinear with any.
   return UndirectedAngle(along, shorter.Direction()) < 0.02;
 }
 
@@ -43,7 +43,7 @@ int Root(std::vector<int>& parents, int i) {
   return i;
 }
 
-// The stretches on the axis, merged where they overlap or nearly touch.
+// The stretches on the axis, merged if they overlap or nearly touch.
 std::vector<Stretch> Merged(std::vector<Stretch> stretches, double gap) {
   std::sort(stretches.begin(), stretches.end(), [](const Stretch& a, const Stretch& b) {
     return a.from < b.from || (a.from == b.from && a.to < b.to);

@@ -46,8 +46,8 @@ class LightOnGrid {
     return static_cast<float>(LightOfLamp(lamp_, grid_.At(x, y), grid_.normal(), tracer_));
   }
 
-  // Whether the light is linear over a block, judged by it and the nodes around: a border of a
-  // shadow that is sharp for this grid bends it.
+  // Returns true if the light is linear over a block, by the block and its neighbouring nodes: the
+  // border of a shadow sharp for this grid makes it nonlinear.
   bool IsEven(int column, int row) const {
     constexpr float kBend = 0.08F;  // of the brightest; two steps of a shadow made of kLampPoints
     for (int i = -1; i <= 2; ++i) {

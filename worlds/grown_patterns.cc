@@ -23,7 +23,7 @@ double Plaster(double u, double v, double tone, std::uint64_t seed) {
   const double clouds = FractalNoise(1.3 * u, 1.3 * v, 3, 0.6, seed);
   const double grain = FractalNoise(14 * u, 14 * v, 4, 0.85, seed + 50);
   const double stain = std::max(0.0, FractalNoise(3 * u, 3 * v, 4, 0.7, seed + 90) - 0.2);
-  // Scuffs: short dark scratches where two noises of different direction meet.
+  // Scuffs: short dark scratches at the crossings of two noises of different direction.
   const double scratch = FractalNoise(6 * u + 2 * v, 55 * v - 18 * u, 2, 0.7, seed + 110);
   const double worn = FractalNoise(2 * u, 2 * v, 2, 0.5, seed + 120);
   const double scuff =

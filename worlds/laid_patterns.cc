@@ -13,7 +13,7 @@
 namespace plumbline {
 namespace {
 
-// How a laid material is divided. Course j lies between v = j * height and the next; its pieces are
+// Layout of a laid material. Course j lies between v = j * height and the next; its pieces are
 // `length` long and begin `Shift(j)` before multiples of it. Each course and each piece begins with
 // its joint.
 struct Courses {
@@ -36,7 +36,7 @@ struct Courses {
   }
 };
 
-// Where a point lies among the courses.
+// Position of a point in the courses.
 struct Place {
   double course = 0, piece = 0;  // indices
   double x = 0, y = 0;           // metres from the beginning of the piece and of the course
@@ -63,8 +63,8 @@ Place FindPlace(const Courses& courses, double u, double v, const Eigen::Vector2
   return place;
 }
 
-// Both sides of every joint: each is a step of the reflectance of its own, also where a camera far
-// away sees one dark line.
+// Both sides of every joint: each is a step of the reflectance, even if a distant camera sees one
+// dark line.
 void AppendJoints(const Courses& courses,
                   const Eigen::AlignedBox2d& window,
                   std::vector<Segment2>* edges) {
@@ -105,7 +105,7 @@ void AppendJoints(const Courses& courses,
 
 double Mix(double a, double b, double share_of_b) { return a + share_of_b * (b - a); }
 
-// What lies in the courses, by material.
+// Contents of the courses, by material.
 class LaidPattern : public Pattern {
  public:
   LaidPattern(const PatternFrame& frame, const Courses& courses)

@@ -31,7 +31,7 @@ std::vector<Vector3f> HalfSphere(unsigned count) {
   return directions;
 }
 
-// Where a ray meets the plane of a surface, as shares of its sides.
+// Intersection of a ray with the plane of a surface, as shares of its sides.
 Eigen::Vector2f MeetingPoint(const Surface& surface, const Vector3f& from, const Vector3f& along) {
   const Vector3d origin = from.cast<double>(), direction = along.cast<double>();
   const Vector3d normal = surface.side_u.cross(surface.side_v);
@@ -138,7 +138,7 @@ std::vector<LightMaps::Layer> LightMaps::BakeDirect(unsigned index,
   return WithoutDark(DirectLight(grid, scene_.lamps, sources, source_count(), tracer));
 }
 
-// What each point gets from the surfaces around it, lit as `light` says, and from the sky.
+// Light on each point from the surfaces around it, lit by `light`, and from the sky.
 std::vector<LightMaps::Layer> LightMaps::Gather(
     unsigned index,
     const RayTracer& tracer,

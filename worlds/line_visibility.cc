@@ -59,7 +59,7 @@ class LineVisibility::Sweep {
     std::optional<std::optional<Vector2d>> px;  // outer: looked at; inner: seen, where
   };
 
-  // Pixel of a place on the line where it is seen.
+  // Pixel of a visible position on the line.
   std::optional<Vector2d> Look(double share) const;
   const std::optional<Vector2d>& At(int i) {
     Sample& sample = samples_[static_cast<std::size_t>(i)];

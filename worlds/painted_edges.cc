@@ -46,7 +46,7 @@ bool NearRim(const Segment2& edge, const Vector2d& size) {
   return false;
 }
 
-// The two as one where the second continues the first.
+// Returns both as one if the second continues the first.
 std::optional<Segment2> Joined(const Segment2& first, const Segment2& second, double max_gap) {
   constexpr double kAcross = 1e-6;  // metres
   const Vector2d along = first.Direction();

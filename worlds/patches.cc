@@ -51,7 +51,7 @@ double ValueAt(const Patch& patch, const Vector2d& at, double below) {
   return value;
 }
 
-// Where the outline of a patch crosses the line {k-th coordinate free, the other one `fixed`}.
+// Crossings of the outline of a patch with the line {k-th coordinate free, the other one `fixed`}.
 void AppendCrossings(const Patch& patch, int k, double fixed, std::vector<double>* crossings) {
   const int other = 1 - k;
   if (fixed < patch.box.min()(other) || fixed > patch.box.max()(other)) return;

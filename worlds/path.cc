@@ -115,7 +115,7 @@ Nudge DroneNudge(const CameraPath& path, double time, std::uint64_t seed) {
   Nudge nudge;
   AddBand(nudge, time, seed, 0, {0.1, 0.8, 0.015, 0.012});
   AddBand(nudge, time, seed, 10, {18, 45, 0.0001, 0.0004});  // rotors
-  // It leans into what it is accelerated to: forward nose down, sideways rolling.
+  // It tilts into its acceleration: forward nose down, sideways rolling.
   const Rigid3 now = path.world_from_camera(time);
   const Vector3d acceleration =
       (path.world_from_camera(time + kStep).translation - 2 * now.translation +

@@ -20,15 +20,15 @@ namespace {
 
 using Eigen::Vector3f;
 
-// Embree multiplies by approximate reciprocals, which every make of processor rounds in its own
-// way: of two surfaces that a ray meets at the same place, as in a corner, it may find either one
-// first, and a thing that just touches the end of a way may be in it or not. All that is so near is
-// found, therefore, and what decides between them are distances from divisions in double precision.
+// Embree multiplies by approximate reciprocals, whose rounding depends on the processor: of two
+// surfaces hit at the same position, as in a corner, it may report either one first, and it may
+// include or miss an object that just touches the end of a segment. Therefore all near hits are
+// found, and distances by divisions in double precision decide between them.
 constexpr float kNear = 1e-5F;  // relative to a distance; what Embree rounds is a hundredth of it
 constexpr float kNearest = 0.01F;  // the least distance for this: a ray may begin on a surface
 
-// With the instruction set that every processor of the architecture has, Embree's tests of where a
-// ray passes the sides of a surface, which need no reciprocals, are the same everywhere.
+// With the instruction set common to all processors of the architecture, Embree's tests of a ray
+// against the sides of a surface, which need no reciprocals, are the same everywhere.
 constexpr const char* kDeviceSettings = "threads=1,isa=sse2";
 
 struct Ray {
@@ -40,7 +40,7 @@ struct Plane {
   Eigen::Vector3d normal;
   double offset = 0;  // of its points along the normal
 
-  // How far along a ray the plane is, in lengths of the direction.
+  // Distance of the plane along a ray, in lengths of the direction.
   double Distance(const Ray& ray) const {
     return (offset - normal.dot(ray.from.cast<double>())) /
            normal.dot(ray.direction.cast<double>());
@@ -113,11 +113,10 @@ class Tree {
   const Vector3f& centre() const { return centre_; }
   float radius() const { return radius_; }
 
-  // What those of some rays meet first that are in use (-1, others 0), where it is nearer than what
-  // they are known to meet.
+  // Finds the first hits of the rays in use (-1, others 0), if nearer than their known hits.
   void Trace(const Ray* rays, const int* in_use, Meeting* meetings) const;
 
-  // Whether something is on the way from a ray's begin to the end of its direction.
+  // Returns true if an object lies between a ray's start and the end of its direction.
   bool Blocks(const Ray& ray) const;
 
  private:
@@ -126,7 +125,7 @@ class Tree {
   static void RefuseBeyond(const RTCFilterFunctionNArguments* found);
   double Distance(const RTCFilterFunctionNArguments& found, unsigned i) const;
 
-  static constexpr float kAround = 1.001F;  // more than what is rounded
+  static constexpr float kAround = 1.001F;  // more than the rounding
 
   RTCScene tree_ = nullptr;
   std::vector<unsigned> surfaces_;
@@ -135,7 +134,7 @@ class Tree {
   float radius_ = 0;
 };
 
-// What Embree hands to the functions that it calls for each surface that a ray meets.
+// Argument of the functions that Embree calls for each surface hit by a ray.
 struct Tree::Search {
   RTCIntersectContext context;
   const Tree* tree = nullptr;

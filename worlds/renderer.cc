@@ -38,8 +38,8 @@ struct CameraPose {
   Vector3f Direction(const Vector2f& ray) const { return rotation * Vector3f(ray.x(), ray.y(), 1); }
 };
 
-// Places within a pixel, about its centre, their mean exactly there: a grid for square numbers,
-// else a sequence of low discrepancy (in which neighbours are far apart; always used where samples
+// Sample positions within a pixel, with their mean exactly at its centre: a grid for square
+// numbers, otherwise a sequence of low discrepancy (with distant neighbours; always used if samples
 // also differ in time).
 std::vector<Vector2f> PixelPlaces(int count, bool in_time) {
   std::vector<Vector2f> places;
@@ -300,7 +300,7 @@ void Renderer::Implementation::RenderInstant(const RayTable& rays,
   }
 }
 
-// As many as pixels that what is nearest moves across the image meanwhile.
+// The image motion of the nearest surface meanwhile, in pixels.
 int Renderer::Implementation::TimeSamples(const RayTable& rays,
                                           const Take& take,
                                           const DepthImage& depth) const {

@@ -66,7 +66,7 @@ CameraIntrinsics EurocIntrinsics(bool distortion, bool right) {
   return intrinsics;
 }
 
-// Those of the odometry sequences 00 to 02.
+// Intrinsics of the odometry sequences 00 to 02.
 CameraIntrinsics KittiIntrinsics() {
   CameraIntrinsics intrinsics;
   intrinsics.fx = intrinsics.fy = 718.856;
@@ -120,7 +120,7 @@ int CountFrames(const CameraPath& path, const SynthOptions& options) {
   return options.frames > 0 ? std::min(options.frames, whole) : whole;
 }
 
-// A share of a pixel where the path comes closest to a surface; bodies are taken to come to 1 m.
+// A share of a pixel at the closest distance of the path from a surface; 1 m for bodies.
 std::vector<double> TexelSizes(const World& world,
                                const SynthOptions& options,
                                double focal,
@@ -244,8 +244,8 @@ Rendering SyntheticSequence::RenderIdeal(int frame, int camera) const {
       shutter);
 }
 
-// What a camera's exposure control does: it looks at each image and brings the next one a part of
-// the way to the brightness it wants.
+// A camera's exposure control: it measures each image and brings the next one a part of the way to
+// the desired brightness.
 std::vector<double> SyntheticSequence::FindGains(int threads) const {
   constexpr double kProbeScale = 0.1, kTarget = 85, kPart = 0.25, kLeast = 0.1, kMost = 12;
   const RayTable probe(MakeCamera(options_, false, kProbeScale));

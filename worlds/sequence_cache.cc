@@ -48,7 +48,7 @@ std::optional<pid_t> WriterOf(const std::string& name, const std::string& key) {
   return writer;
 }
 
-// Removes what renderings of this sequence that were killed left behind.
+// Removes the remains of killed renderings of this sequence.
 void RemoveLeftovers(const fs::path& cache, const std::string& key) {
   std::error_code ignored;
   std::vector<fs::path> leftovers;
@@ -109,7 +109,7 @@ fs::path CachedSequence(const fs::path& cache_folder,
   std::error_code error;
   if (fs::exists(folder, error) && !IsWhole(folder)) fs::remove_all(folder, error);
   fs::rename(temporary.path(), folder, error);
-  // Another process may have been faster: what it made is the same.
+  // Another process may have been faster, with the same result.
   if (error && !IsWhole(folder)) {
     throw InputError("cannot make the folder " + folder.string() + ": " + error.message());
   }

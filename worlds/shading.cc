@@ -85,7 +85,7 @@ int Shading::LevelOf(const SurfaceHit& hit,
   const LocalRay ray = ToSurface(hit, plane, instant);
   const float slope = plane.normal.dot(ray.direction);
   const float distance = (plane.offset - plane.normal.dot(ray.origin)) / slope;
-  // How the point on the plane moves with the ray, in texels: the geometric mean of the two sides
+  // Derivative of the point on the plane by the ray, in texels: the geometric mean of the two sides
   // is the square root of the determinant.
   Eigen::Matrix2f texel_from_step;
   for (int k = 0; k < 2; ++k) {

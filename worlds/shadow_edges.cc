@@ -27,7 +27,7 @@ bool Sees(const RayTracer& tracer, const Vector3d& from, const Vector3d& to) {
   return tracer.StillSees(from.cast<float>(), to.cast<float>(), static_cast<float>(kLift));
 }
 
-// What a lamp gives where nothing is in its way.
+// Light of an unoccluded lamp.
 double OpenLight(const Lamp& lamp, const Vector3d& point, const Vector3d& normal) {
   double sum = 0;
   for (int i = 0; i < kLampPoints; ++i) sum += LightFrom(lamp, i, point, normal).light;
@@ -81,7 +81,7 @@ class LampShadows {
   std::vector<const Surface*> receivers_;
 };
 
-// Whether the lamp shines on some part of the surface, judged at 4 x 4 places and the nearest one.
+// Returns true if the lamp shines on a part of the surface, by 4 x 4 positions and the nearest one.
 bool LampShadows::IsLit(const Surface& surface) const {
   constexpr int kSide = 4;
   const Vector3d normal = surface.Normal();
@@ -124,7 +124,7 @@ std::optional<Segment3> LampShadows::OutlineOf(const Segment3& edge) const {
                   edge.start + (last + 1.0) / count * way};
 }
 
-// Where light past the edge meets the rectangle.
+// Intersection of the light past the edge with the rectangle.
 std::optional<Segment3> LampShadows::Project(const Segment3& edge, const Surface& receiver) const {
   constexpr double kBehind = 0.001;  // metres between edge and surface
   const Vector3d normal = receiver.Normal();
@@ -163,7 +163,7 @@ bool LampShadows::IsBorder(const Segment3& edge,
                            const Vector3d& across,
                            const Surface& receiver) const {
   const Vector3d normal = receiver.Normal();
-  // The point of the edge that throws this part of the shadow: where ray and edge meet.
+  // The point of the edge that casts this part of the shadow: the intersection of ray and edge.
   const Vector3d ray = point - lamp_.centre, way = edge.end - edge.start;
   const Vector3d plane = ray.cross(way).normalized();
   const Vector3d beside = way.cross(plane);  // in the plane of shadow, normal to the edge

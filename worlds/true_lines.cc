@@ -51,7 +51,7 @@ std::vector<Segment3> PaintedOn(const Surface& surface,
   return edges;
 }
 
-// Appends what does not lie on a line that is there already.
+// Appends segments that do not lie on an existing line.
 void AppendNew(const std::vector<Segment3>& segments,
                TrueLineKind kind,
                double min_length,
@@ -98,7 +98,7 @@ std::vector<Candidate> FindCandidates(const Scene& scene,
         return PaintedOn(scene.surfaces[static_cast<std::size_t>(i)], views, focal_px, limits);
       });
   for (const auto& edges : by_surface) painted.insert(painted.end(), edges.begin(), edges.end());
-  // An edge goes on where a wall is cut in pieces.
+  // Edges continue across the cuts of a wall.
   AppendNew(JoinCollinear(painted, kSameGeometry),
             TrueLineKind::kTexture,
             limits.painted.min_length,
@@ -134,7 +134,7 @@ std::vector<TrueLine> TrueLines(const Scene& scene,
   const RayTracer tracer(scene);
   const std::vector<Candidate> candidates =
       FindCandidates(scene, views, camera.intrinsics().fx, tracer, limits, threads);
-  // Where bodies are is worked out once a frame, not once a ray.
+  // Poses of bodies are computed once a frame, not once a ray.
   std::vector<RayTracer::Moment> moments;
   for (const TimedView& view : views) moments.push_back(tracer.At(view.time));
   const SightTest sees = [&](const Vector3d& from, const Vector3d& to, std::size_t frame) {

@@ -38,15 +38,15 @@ std::string WorldYaml(const SyntheticSequence& sequence, SequenceFormat format) 
          "\nformat: " + NameOf(format) + "\n" + OptionTable(options).Dump();
 }
 
-// Whether an earlier call wrote a folder, whole or not; its world.yaml begins as ours do. What a
-// call that ended early left to begin with is empty.
+// Returns true if an earlier call wrote a folder, complete or not, by the beginning of its
+// world.yaml. The file is empty if a call ended early.
 bool IsRendered(const fs::path& folder) {
   if (fs::exists(folder / kWorldFile)) return FileBeginsWith(folder / kWorldFile, kRendered);
   const fs::path part = folder / kPartFile;
   return FileBeginsWith(part, kRendered) || ReadFileIfThere(part) == "";
 }
 
-// What a sequence is made of, of all formats.
+// Files and folders of a sequence, of all formats.
 constexpr std::array kNames = {kWorldFile,
                                "mav0",
                                "rgb",
@@ -61,7 +61,7 @@ constexpr std::array kNames = {kWorldFile,
                                "surfaces.csv",
                                kDescriptionFile};
 
-// Whether a file in one of its folders has a name that rendering gives, or gave while it wrote.
+// Returns true if a file in one of its folders has a final or temporary name of rendering.
 bool IsRenderedName(const std::string& path) {
   static const std::regex rendered(
       R"(mav0/(cam[01]|depth0)/(sensor\.yaml|data\.csv|data/[0-9]+\.png)|)"
@@ -92,8 +92,8 @@ std::optional<fs::path> ForeignFile(const fs::path& folder) {
   return foreign;
 }
 
-// Whether an earlier call left a sequence in a folder, whole or not. Throws InputError where there
-// is anything else that would be in the way.
+// Returns true if an earlier call left a sequence in a folder, complete or not. Throws InputError
+// if anything else is in the way.
 bool HasSequence(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error) || fs::is_empty(folder, error)) return false;
@@ -113,7 +113,7 @@ bool HasSequence(const fs::path& folder) {
   return true;
 }
 
-// Takes away what an earlier call left; refuses to touch anything else.
+// Removes the results of an earlier call; refuses to touch anything else.
 void ClearFolder(const fs::path& folder) {
   if (!HasSequence(folder)) return;
   std::error_code error;

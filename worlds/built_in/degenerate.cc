@@ -14,8 +14,8 @@ using Eigen::Vector3d;
 
 constexpr double kLength = 20, kDepth = 5, kHeight = 3;
 
-// Everything long runs along x: what a pair whose baseline is along x, moving along x, sees in its
-// epipolar planes.
+// All long edges are along x: in the epipolar planes of a pair with its baseline and motion along
+// x.
 void AddRails(SceneBuilder& scene, const Place& wall) {
   constexpr double kEnds = 0.03, kMiddle = 0.5 * kLength, kLong = kLength - 2 * kEnds;
   const auto board = [&](double out, double z, double deep, double high, const Finish& finish) {

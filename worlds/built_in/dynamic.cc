@@ -166,7 +166,7 @@ void Furnish(SceneBuilder& scene, const ShellShape& shell) {
     scene.AddBox({{x, 4.55, 0}, {0.35, 0.35, kHeight}}, Material::kConcrete, 0.55);
     AddSheet(scene, {{x, 4.375, 1.3}, -0.5 * kPi}, {0.3, 0.45}, Material::kPoster, 0.8);
   }
-  for (const double x : {3.2, 8.8}) {  // few: each costs time where things move
+  for (const double x : {3.2, 8.8}) {  // few: each costs time in scenes with motion
     for (const double y : {2.4, 6.4}) {
       AddTubeLamp(scene, {{x, y, kHeight - 0.3}, 0}, {1.8, 10});
     }

@@ -112,7 +112,7 @@ void AddSideEdges(SceneBuilder& scene, const Side& side, double height) {
   }
 }
 
-// Whether a hole as tall as the room begins (ends) where the side does: no corner there.
+// Returns true if a hole as tall as the room begins (ends) at the end of the side: no corner there.
 bool OpenAt(const Side& side, bool start, double height) {
   return std::any_of(side.openings.begin(), side.openings.end(), [&](const Opening& hole) {
     const bool touches =

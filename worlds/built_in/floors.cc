@@ -40,7 +40,7 @@ constexpr double kFlightEnd = kLanding + kTreads * kTread;
 constexpr double kSlab = 0.2;
 constexpr double kDoor = 0.9, kDoorHeight = 2.05;
 
-// What differs from seed to seed in the plan.
+// Parts of the plan that depend on the seed.
 struct Plan {
   double party;      // western face of the wall between the rooms
   double west_door;  // middles of the doors to the corridor
@@ -145,7 +145,7 @@ void AddLamps(SceneBuilder& scene, const std::vector<RoomPlan>& rooms) {
   }
 }
 
-// What both storeys have, at the height of the lower one.
+// Parts common to both storeys, at the height of the lower one.
 Scene MakeStorey(SceneBuilder& scene, const Plan& plan) {
   const std::vector<RoomPlan> rooms = Rooms(plan);
   AddBuilding(scene, rooms, Passages(plan));
@@ -261,7 +261,7 @@ void FurnishWell(SceneBuilder& scene) {
   scene.AddCeilingLamp({4.65, 1.35, kStorey - kSlab - 0.01}, {0.2, 0.9}, 1.5);
 }
 
-// A leg and the height of the floor where it ends.
+// A leg and the height of the floor at its end.
 struct Stretch {
   Vector2d to;
   double floor = 0;

@@ -15,7 +15,7 @@ constexpr double kLength = 33, kWidth = 5.4, kHeight = 4.0, kThickness = 0.45;
 constexpr double kBay = 4.0, kFirstBay = 0.5;
 constexpr int kBays = 8;
 
-// What is behind a shop window: a back wall, a shelf and goods on it and on the sill.
+// The display behind a shop window: a back wall, a shelf and goods on it and on the sill.
 void AddDisplay(SceneBuilder& scene, const Place& wall, const Opening& hole) {
   const double middle = hole.along + 0.5 * hole.width;
   AddBacking(scene,
@@ -79,7 +79,7 @@ void AddShop(SceneBuilder& scene, const Place& wall, const Opening& window, doub
           0.6);
 }
 
-// What stands along the walls: benches, bins, crates, plants in tubs.
+// Objects along the walls: benches, bins, crates, plants in tubs.
 void AddStreetThing(SceneBuilder& scene, const Place& wall, double along) {
   const double kind = scene.Random(0, 4);
   if (kind < 1) {  // a bench

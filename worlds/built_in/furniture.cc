@@ -131,7 +131,7 @@ void AddChair(SceneBuilder& scene, const Place& place) {
 
 namespace {
 
-// A book or box on a board: what the shelf hides of it, back and bottom, is left out. The place is
+// A book or box on a board, without the faces hidden by the shelf, back and bottom. The place is
 // the middle of its back at the foot.
 void AddBook(SceneBuilder& scene, const Place& place, const Vector3d& size, bool box) {
   const double tone = scene.Random(0.1, 0.95), half = 0.5 * size.x();

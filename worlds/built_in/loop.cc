@@ -286,7 +286,7 @@ void AddGridLamps(SceneBuilder& scene, const Ring& ring) {
 }
 
 CameraPath TwoRounds(SceneBuilder& random, std::uint64_t seed) {
-  // In each room the way goes around what stands in its middle.
+  // In each room the path goes around the objects in its middle.
   const std::vector<Vector2d> round = {{5.0, 2.5},
                                        {20.6, 2.6},
                                        {20.7, 4.3},
@@ -311,7 +311,7 @@ CameraPath TwoRounds(SceneBuilder& random, std::uint64_t seed) {
     }
   }
   legs.push_back({{5.0, 2.5}});
-  legs.push_back({{8.5, 2.6}});  // what was seen first is seen again
+  legs.push_back({{8.5, 2.6}});  // revisits the start
   return WithCarrier(
       SplinePath(WalkAlong({4.9, 1.3}, legs, 1.55, 0.8), {1.15, 0.9}), Carrier::kHand, seed);
 }

@@ -66,7 +66,7 @@ void FurnishCorridor(SceneBuilder& scene) {
   AddGuard(scene, 8.9, 11.25, kWidth);
   AddGuard(scene, 12.6, 15.95, kWidth);
   AddDuct(scene, {{5.0, 0, 2.35}, kNorth}, 4.2);
-  // Where the cart turns: without it not one feature would be seen for a second.
+  // At the turn of the cart: without it no feature would be visible for a second.
   AddSheet(scene, {{13.9, kWidth, 1.1}, kSouth}, {0.6, 0.85}, Material::kPoster, 0.8);
   // A fire extinguisher in its bracket, a notice board, a bench.
   const double x = scene.Random(9.4, 10.4);

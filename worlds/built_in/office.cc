@@ -189,7 +189,7 @@ CameraPath Walk(SceneBuilder& random, std::uint64_t seed) {
 }
 
 // Another day: the rooms of the first walk in another order of lanes, a step aside, from a lower
-// height and with a gaze of its own. What it shows, the first walk has shown from somewhere near.
+// height and with another gaze. All of its views are near views of the first walk.
 CameraPath SecondWalk(SceneBuilder& random, std::uint64_t seed) {
   std::vector<Leg> legs = {{{10.1, 2.35}},
                            {{12.45, 2.35}},

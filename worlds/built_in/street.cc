@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 constexpr double kStorey = 2.9;
 
-// The looks of a house, the same for all its windows.
+// Appearance of a house, the same for all its windows.
 struct HouseLook {
   Material wall = Material::kPlaster;
   double wall_tone = 0.5;

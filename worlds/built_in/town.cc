@@ -41,8 +41,8 @@ struct Plan {
       : a(0, 0), b(middle, 0), c(east, 0), d(0, north), e(middle, north), f(east, north) {}
 };
 
-// One side of a street, the one to the right of who goes from one end to the other. In the frame of
-// `place`, x runs along the middle of the road and the houses stand where y is negative.
+// One side of a street, on the right when walking from one end to the other. In the frame of
+// `place`, x is along the middle of the road and the houses have negative y.
 struct StreetSide {
   Place place;
   double length = 0;
@@ -85,8 +85,8 @@ bool IsRoad(const Plan& plan, const Vector2d& at) {
          (along_y && within(at.y(), plan.a.y(), plan.d.y()));
 }
 
-// Where the pieces of the ground meet along an axis: at the rims of the roads across it, and about
-// 12 m apart.
+// Seams between the pieces of the ground along an axis: at the rims of the roads across it, and
+// about 12 m apart.
 std::vector<double> Cuts(std::span<const double> roads) {
   constexpr double kPiece = 12;
   std::vector<double> rims{roads.front() - kOutside};
@@ -138,7 +138,7 @@ void AddParkedCars(SceneBuilder& scene, const StreetSide& side) {
   }
 }
 
-// What stands between the road and the houses: parked cars, the pavement, trees, lamps, hedges and
+// Objects between the road and the houses: parked cars, the pavement, trees, lamps, hedges and
 // fences. The pavement begins and ends `corner` from the rims of the crossings.
 void AddKerbside(SceneBuilder& scene, const StreetSide& side, double corner) {
   constexpr double kKerb = 0.12;
@@ -204,7 +204,7 @@ void AddHouses(SceneBuilder& scene, const Plan& plan) {
 
 // In the lane to the right of who goes from crossing to crossing.
 CameraPath MakeRoute(const Plan& plan, SceneBuilder& scene) {
-  constexpr double kCut = 9;  // where the turn begins before a crossing
+  constexpr double kCut = 9;  // distance before a crossing at which the turn begins
   constexpr double kBegin = 6;
   const Vector2d route[] = {plan.a,
                             plan.b,
@@ -237,7 +237,7 @@ CameraPath MakeRoute(const Plan& plan, SceneBuilder& scene) {
 }
 
 // Cars that drive round both blocks in the lane that the camera never takes; none comes closer to
-// it than where two lanes pass.
+// it than in passing on adjacent lanes.
 void AddTraffic(SceneBuilder& scene, const Plan& plan, const CameraPath& path) {
   constexpr int kCars = 4, kTries = 200;
   constexpr double kClosest = 2.9, kStep = 0.05;

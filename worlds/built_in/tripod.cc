@@ -65,7 +65,7 @@ void AddStudy(SceneBuilder& scene) {
   scene.SetAmbient(0.25);
 }
 
-// One after the other; both must be at rest where they meet, at the same pose.
+// One after the other; both must be at rest at the junction, at the same pose.
 CameraPath Then(CameraPath first, CameraPath second) {
   const double switch_s = first.duration;
   return {switch_s + second.duration,

@@ -151,7 +151,7 @@ Scene MakeHall(std::uint64_t seed) {
   return scene.Take();
 }
 
-// How the vehicle is flown.
+// Flight of the vehicle.
 struct Flight {
   int legs = 14;
   Pace pace;
