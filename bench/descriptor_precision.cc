@@ -88,7 +88,7 @@ View Describe(GrayImage image, const ValidRegion& valid) {
   return view;
 }
 
-// The nearest neighbour of a line: how near, how much nearer than the next, and whether it is it.
+// The nearest neighbour of a line: its distance, its ratio to the next, and whether it is right.
 struct Nearest {
   double distance = 0;
   double ratio = 0;
@@ -99,8 +99,8 @@ struct Tally {
   int with_match = 0;  // lines that have a counterpart
   std::vector<Nearest> nearest;
 
-  // Of the pairs that have to be accepted, best `key` first, to find kRecall of the counterparts:
-  // the share of right ones. nullopt where that is never reached.
+  // Precision among the pairs accepted, best `key` first, to find kRecall of the counterparts.
+  // nullopt if that recall is never reached.
   std::optional<double> PrecisionAtRecall(double Nearest::*key) const {
     std::vector<Nearest> sorted = nearest;
     std::stable_sort(sorted.begin(), sorted.end(), [&](const Nearest& a, const Nearest& b) {
@@ -202,7 +202,7 @@ void AddAll(const View& a,
 }
 
 // The disparities of both ends of a left line from a dense disparity image: a straight line fitted
-// robustly to what lies beside the segment, the nearer side where there is a step.
+// robustly to the disparities beside the segment, on the nearer side of a step.
 std::optional<std::array<double, 2>> EndDisparities(const cv::Mat& disparity,
                                                     const Segment2& segment) {
   constexpr int kSamples = 24;
@@ -260,7 +260,7 @@ class TrueStereo {
     return rectifier_.Apply(std::move(*frame));
   }
 
-  // Where lines of frame i are in frame j.
+  // Positions of the lines of frame i in frame j.
   std::vector<ExpectedLine> Project(const RectifiedFrame& frame,
                                     const std::vector<LineFeature>& lines,
                                     std::size_t i,

@@ -43,7 +43,7 @@ void DiscardingViewer::Watch(std::uint16_t port) {
         }
       }
       return;
-    } catch (const std::runtime_error&) {  // nobody listens yet
+    } catch (const std::runtime_error&) {  // no server yet
       std::this_thread::sleep_for(20ms);
     }
   }

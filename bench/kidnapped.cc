@@ -60,7 +60,7 @@ class Source {
   const Rigid3& PoseOf(std::size_t frame) const { return poses_[frame]; }
   std::int64_t interval_ns() const { return data_->stamp_ns(1) - data_->stamp_ns(0); }
 
-  // Whether one of the first `count` frames was taken from about there.
+  // Returns true if one of the first `count` frames was taken near this pose.
   bool Knows(const Rigid3& pose, std::size_t count) const {
     return std::any_of(
         poses_.begin(), poses_.begin() + static_cast<std::ptrdiff_t>(count), [&](const Rigid3& p) {

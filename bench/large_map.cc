@@ -100,7 +100,7 @@ std::vector<KeyFrame> TakeOutLast(int count, Map& map) {
   return taken;
 }
 
-// Copies share what neither has changed: one all of which has been changed shares nothing.
+// Copies share unchanged parts: a copy of a completely changed map shares nothing.
 Map Unshared(const Map& map) {
   Map copy = map;
   edit::MoveKeyFrames motion;
@@ -109,8 +109,8 @@ Map Unshared(const Map& map) {
   return copy;
 }
 
-// The time of a copy of the whole map, as it is made for what is computed beside mapping, and of
-// giving it up when all of the map has changed since.
+// Measures a copy of the whole map, as for background computations, and its release after the whole
+// map has changed.
 void MeasureCopy(const LongDrive& drive) {
   const Map map = Unshared(drive.map);
   std::optional<Map> copy;
@@ -120,8 +120,8 @@ void MeasureCopy(const LongDrive& drive) {
   fmt::print("  copy of the map {:.2f} ms, given up {:.2f} ms\n", 1000 * made, 1000 * given_up);
 }
 
-// Mean milliseconds of CPU of each step of mapping, and of a snapshot, over some keyframes. With a
-// copy that is made before the first and read by nobody.
+// Mean milliseconds of CPU of each step of mapping, and of a snapshot, over some keyframes. With an
+// unused copy made before the first.
 void MeasureSteps(const LongDrive& drive, bool with_copy) {
   constexpr int kKeyFrames = 20;
   Map map = Unshared(drive.map);
@@ -154,7 +154,7 @@ void MeasureStereoChange(const LongDrive& drive) {
   change.Begin(map, {drive.imaging.camera, 0.3 * Vector6d::Ones()});
   double longest = 0, all = 0;
   int steps = 0;
-  // The last one frees what no keyframe has any more.
+  // The last step frees data without keyframes.
   for (bool more = true; more; ++steps) {
     more = change.Running(map);
     const double seconds = Measure([&] { change.Step(map); });
@@ -167,8 +167,8 @@ void MeasureStereoChange(const LongDrive& drive) {
              1000 * longest);
 }
 
-// The essential graph of the map: when nothing is counted yet, when one keyframe has changed since,
-// and when nothing has; then what a loop needs of it to be judged, and what it needs to be closed.
+// The essential graph of the map: from nothing, after a change of one keyframe, and without
+// changes; then its parts for verifying a loop, and for closing it.
 void MeasureEssentialGraph(const LongDrive& drive) {
   Map map = Unshared(drive.map);
   const LoopOptions options;

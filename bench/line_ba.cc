@@ -29,7 +29,7 @@ struct Rival {
   RivalLines lines;
   double correlation;  // of the two residuals; 0 lets the blocks of end points split
 };
-// The covariance has a small correlation where the blocks are not to split.
+// The covariance has a small correlation if the blocks must not split.
 constexpr double kWhole = 1e-6;
 constexpr std::array kRivals{
     Rival{"plucker", {LineParametrization::kPlucker, LineResidualKind::kObservedEnds}, 0},

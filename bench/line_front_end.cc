@@ -193,7 +193,7 @@ StepTimes TimeSteps(const SequenceImages& images, double min_length) {
   return times;
 }
 
-// The best of five of each image, median over the images: what a quiet machine would take.
+// The best of five of each image, median over the images: the time on a quiet machine.
 void Speed(const std::string& data) {
   fmt::print(
       "| sequence | shortest line, of the width | lines | matches | gradient | detection | "

@@ -78,7 +78,7 @@ Setup ReadSetup(int count, char** arguments) {
   return setup;
 }
 
-// A frame of the sequence; without features where its image cannot be read.
+// A frame of the sequence; without features if its image cannot be read.
 struct Measured {
   std::int64_t stamp_ns = 0;
   std::shared_ptr<const FrameFeatures> indexed;

@@ -45,7 +45,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What one run has beside it.
+// Load beside one run.
 struct Variant {
   int loops = 0;
   std::optional<int> viewers;  // nullopt: the run cannot be looked at

@@ -106,9 +106,8 @@ void CeresSetUp(benchmark::State& state, LineParametrization lines) {
   Run(state, [&] { return SolveWithCeres(problem, options); });
 }
 
-// Points of one camera alone: the one case here for which Ceres brings Schur elimination with fixed
-// block sizes (2, 3, 6). Where residuals or landmarks of two sizes meet, it works with sizes known
-// at run time only.
+// Points of one camera alone: the only case here with Ceres' Schur elimination in fixed block sizes
+// (2, 3, 6). With residuals or landmarks of two sizes, its sizes are known at run time only.
 BaProblem WithoutDisparity(BaProblem problem) {
   for (auto& o : problem.point_observations) o.measurement.disparity.reset();
   return problem;

@@ -46,8 +46,8 @@ struct RoadPose {
   }
 };
 
-// The road as driven by each keyframe. Where a shape has circuits, these close; after each the side
-// to which the road turns changes, and of those through a hub also the length of the straight.
+// The road as driven by each keyframe. In shapes with circuits, these close; after each the side to
+// which the road turns changes, and for those through a hub also the length of the straight.
 std::vector<RoadPose> Road(DriveShape shape, const std::vector<int>& places) {
   const int part = std::max(1, static_cast<int>(places.size()) / kDriveParts);
   std::vector<RoadPose> road;
@@ -81,7 +81,7 @@ struct Sighting {
   int feature = 0;
 };
 
-// What is in the world, before there is a map.
+// Landmarks of the world, before there is a map.
 struct DrivePoint {
   Eigen::Vector3d position;
   std::vector<Sighting> seen;
@@ -160,7 +160,7 @@ class DriveBuilder {
       if (visit != keyframe && rng.Uniform() >= kFoundAgain) continue;
       const int last = static_cast<int>(places_.size()) - 1;
       for (int k = std::max(0, visit - kBefore); k <= std::min(last, visit + kAfter); ++k) {
-        // A visit ends where the roads part.
+        // A visit ends at the fork of the roads.
         const int other = places_[static_cast<std::size_t>(k)];
         if (visit != keyframe && std::abs(other - place) > kAfter) continue;
         if (rng.Uniform() < kFound) watchers.push_back(k);
@@ -252,7 +252,7 @@ class DriveBuilder {
     }
   }
 
-  // Where the keyframe that adds a landmark believes it to be.
+  // Error of the pose of the keyframe that adds a landmark.
   Rigid3 Displacement(int created_by) const {
     const auto k = static_cast<std::size_t>(created_by);
     return Inverse(estimate_[k]) * drive_.truth[k];

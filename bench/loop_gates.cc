@@ -52,14 +52,14 @@ struct Arguments {
   std::size_t from = 0, frames = SIZE_MAX;
 };
 
-// How far a relative pose is from the truth.
+// Error of a relative pose.
 struct PoseError {
   double metres = 0, degrees = 0;
   double chi2 = 0;
   bool is_wrong = false;
 };
 
-// What became of all that was compared.
+// Results of all comparisons.
 struct GateCounts {
   int same = 0;   // the views overlap, and the measured pose, if any, is right
   int wrong = 0;  // they do, but the pose is not
@@ -160,8 +160,8 @@ class Gates {
     return fmt::format("{:.2f} deg {:.3f} m", largest(0) / kDegree, largest(3));
   }
 
-  // How far apart on true surfaces the points are that were taken for one: where the rays of their
-  // newest observations meet them. Nothing for a recording.
+  // Distance on true surfaces between points matched as one: of the intersections of the rays of
+  // their newest observations. Nothing for a recording.
   void PrintPairs(const Atlas& atlas, const LoopAttempt& attempt) const {
     constexpr double kOnePoint = 0.05;  // metres
     std::vector<double> apart;
@@ -215,7 +215,7 @@ class Gates {
   std::set<KeyFrameId> accepted_;
 };
 
-// Keyframes as they come, and which of them are where the camera was before.
+// Finds the keyframes, in order, at which the camera revisits a place.
 class Revisits {
  public:
   Revisits(const ViewTruth& truth, const Gates& gates, KeyFrameId newest)

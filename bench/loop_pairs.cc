@@ -139,7 +139,7 @@ void Ask(const SavedMap& saved,
   tally.translation_m.push_back(error.segment<3>(3).norm());
   tally.rotation_deg.push_back(error.head<3>().norm() * 57.29578);
   tally.log10_chance.push_back(edge->evidence.log10_chance);
-  // The unit of a single camera's map is not the metre: what can be compared is the rotation.
+  // The scale of a single camera's map is arbitrary: only the rotation is comparable.
   const Eigen::Index size = saved.camera.baseline == 0 ? 3 : 6;
   const Eigen::VectorXd part = error.head(size);
   tally.nees.push_back(part.dot(edge->covariance.topLeftCorner(size, size).ldlt().solve(part)));

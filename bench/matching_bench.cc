@@ -30,7 +30,7 @@ namespace {
 constexpr const char* kRecorded = "euroc/MH_01_easy_first250";
 constexpr int kFirstFrame = 100;
 
-// What one image gives.
+// Features of one image.
 struct View {
   ImagePyramid pyramid;
   std::vector<PointFeature> points;

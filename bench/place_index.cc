@@ -50,7 +50,7 @@ Descriptor LandmarkDescriptor(std::string_view kind, std::uint64_t landmark) {
   return descriptor;
 }
 
-// What keyframe `keyframe` of a walk sees; another `view` sees the same landmarks otherwise.
+// Features of keyframe `keyframe` of a walk; another `view` sees the same landmarks differently.
 template <class Feature>
 std::vector<Feature> FeaturesAt(std::string_view kind,
                                 std::int64_t keyframe,

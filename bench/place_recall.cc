@@ -80,7 +80,7 @@ constexpr std::array<std::size_t, 3> kRanks = {1, 5, 10};
 
 class Tally {
  public:
-  // One query; `known`: what is in the index.
+  // One query; `known`: the contents of the index.
   void Count(const View& image,
              const std::vector<PlaceCandidate>& candidates,
              const std::vector<const View*>& known) {

@@ -72,7 +72,7 @@ BENCHMARK(OursOneRound)->Apply(Sizes);
 BENCHMARK(CeresOneRound)->Apply(Sizes);
 BENCHMARK(Ours)->Apply(Sizes);
 BENCHMARK(Ceres)->Apply(Sizes);
-// From afar and with many outliers, where Ceres as set up here would not arrive.
+// From afar and with many outliers, for which Ceres as set up here would not converge.
 BENCHMARK(Ours)
     ->ArgNames({"points", "lines", "outliers", "start"})
     ->Args({300, 80, 30, 30})

@@ -87,14 +87,14 @@ double ResidentMegabytes() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
 }
 
-// What was asked of the allocator and not given back.
+// Allocated and not freed memory.
 double HeapMegabytes() {
   const struct mallinfo2 info = mallinfo2();
   return static_cast<double>(info.uordblks + info.hblkhd) / (1024.0 * 1024.0);
 }
 
-// What a sensor of this brightness and with noise of its own delivers of a picture. Lens and
-// response curve have had their part in the picture already.
+// The image of a picture by a sensor of this brightness and with noise of its own. Lens and
+// response curve are in the picture already.
 GrayImage SeenAgain(const GrayImage& picture, double gain, std::uint64_t stream) {
   Image<float> light(picture.width(), picture.height());
   std::copy_n(
@@ -111,7 +111,7 @@ struct Visit {
   std::int64_t stamp_ns = 0;
 };
 
-// The rounds one after the other, each beginning where the one before ended.
+// The rounds one after the other, each beginning at the end of the previous one.
 class Walk {
  public:
   Walk(const Dataset& dataset, std::size_t frames) : dataset_(dataset), frames_(frames) {}
@@ -119,7 +119,7 @@ class Walk {
   std::vector<Visit> NextRound() {
     std::vector<Visit> visits;
     const bool backwards = round_ % 2 == 1;
-    // Where the way turns back, the picture there is taken once.
+    // At the turning point, the picture is taken once.
     for (std::size_t i = round_ == 0 ? 0 : 1; i < frames_; ++i) {
       const std::size_t picture = backwards ? frames_ - 1 - i : i;
       if (last_) now_ns_ += Distance(*last_, picture);
@@ -226,7 +226,7 @@ class Rounds {
     return ErrorOptionsFor(dataset_->sensor(), dataset_->info().format);
   }
 
-  // The pose that the camera had where a picture was taken, at the time of the visit.
+  // The camera pose of a picture, at the time of the visit.
   std::optional<StampedPose> TruthOf(std::size_t picture, std::int64_t stamp_ns) const {
     const std::int64_t max_gap_ns = ErrorOptions().max_gap_ns;
     const auto pose = InterpolateAt(truth_, dataset_->stamp_ns(picture), max_gap_ns);
@@ -234,8 +234,8 @@ class Rounds {
     return StampedPose{stamp_ns, *pose};
   }
 
-  // The camera as delivered in the map of today; nullopt where the keyframe that the frame hangs on
-  // is not in this map, or not yet.
+  // The camera as delivered in the current map; nullopt if the reference keyframe of the frame is
+  // not in this map, or not yet.
   std::optional<Rigid3> PoseToday(const FrameRecord& record, const Map& map) const {
     const bool here = record.status == FrameStatus::kTracked &&
                       system_->atlas().Current(record.map) == map.id() &&

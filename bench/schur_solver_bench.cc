@@ -59,8 +59,8 @@ BENCHMARK(SolvePath)
     ->Args({3000, 10})
     ->Args({4000, 50});
 
-// Drives that come back to where they were: keyframes at the same place share landmarks with one
-// another and with those `reach` places back.
+// Drives with revisits: keyframes at the same place share landmarks with one another and with those
+// `reach` places back.
 void SolveDrive(benchmark::State& state) {
   const auto shape = static_cast<DriveShape>(state.range(0));
   const int poses = static_cast<int>(state.range(1));

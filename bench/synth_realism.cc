@@ -155,9 +155,9 @@ double SpectrumSlope(const cv::Mat& image) {
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-// Standard deviation of the noise where the image is flattest: of 8 x 8 blocks, by the mean size of
-// a filter that planes and parabolas do not pass (Immerkaer, CVIU 1996), the lowest tenth. Blocks
-// near black or white are left out.
+// Standard deviation of the noise in the flattest parts of the image: of 8 x 8 blocks, by the mean
+// size of a filter that removes planes and parabolas (Immerkaer, CVIU 1996), the lowest tenth.
+// Blocks near black or white are left out.
 double NoiseLevel(const cv::Mat& image) {
   const cv::Mat kernel = (cv::Mat_<float>(3, 3) << 1, -2, 1, -2, 4, -2, 1, -2, 1);
   cv::Mat filtered;
