@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// CPU time of what grows with the map, on generated drives: large_map straight|chain|hub|rounds
-// KEYFRAMES... For each the steps of mapping a keyframe at the end of the drive and a snapshot,
-// which are not to grow, also while there is a copy of the map; the copy, which holds mapping up;
-// the change of its stereo correction; the essential graph that judges a loop, anew and after one
-// keyframe; writing and reading its file; the
-// common directions of lines, the search for well seen lines, and the
-// adjustment that ends a run (--steps: not these), which may; the largest memory so far.
+// CPU time of operations that may grow with the map, on generated drives: large_map
+// straight|chain|hub|rounds KEYFRAMES... For each: the steps of mapping a keyframe at the end of
+// the drive and a snapshot, which must not grow, also while there is a copy of the map; the copy,
+// which blocks mapping; the change of its stereo correction; the essential graph that verifies a
+// loop, anew and after one keyframe; writing and reading its file; the common directions of lines,
+// the search for well observed lines, and the final adjustment (--steps: not these), which may
+// grow; the largest memory so far.
 #include "plumbline/io/map_io.h"
 #include "plumbline/loop_closing/essential_graph.h"
 #include "plumbline/loop_closing/options.h"

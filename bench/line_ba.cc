@@ -7,7 +7,7 @@
 //
 //   line_ba OUT.csv [REPETITIONS] [MOST_LINES] [SHARE_OF_OUTLIERS]
 //
-// What the numbers mean and what they were: docs/benchmarks.md.
+// Meaning of the numbers, and results: docs/benchmarks.md.
 #include "lab/line_rivals/rival_ba.h"
 
 #include "tests/optimization/ba_scene.h"

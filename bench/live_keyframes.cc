@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How many keyframes a live run makes, and how much that depends on the machine: live_keyframes
-// SEQUENCE [--sensor mono|stereo|rgbd] [--mapping-ms 0,50,100,200,400] [--from 0] [--frames 0]
-// [--set KEY=VALUE]...
+// Number of keyframes of a live run, and its dependence on the machine: live_keyframes SEQUENCE
+// [--sensor mono|stereo|rgbd] [--mapping-ms 0,50,100,200,400] [--from 0] [--frames 0] [--set
+// KEY=VALUE]...
 //
-// The sequence is played at its own rate against a clock that this program moves: a frame is
-// tracked the moment it comes, and mapping takes so many milliseconds for each keyframe (and sheds
-// work where three wait), whatever the processor that this runs on. So the figures repeat. Features
-// are measured once and serve all runs. The row "inline" is a run whose mapping is part of the
-// algorithm (slam.lag). Prints a Markdown table: keyframes decided upon, those given up since,
-// those in the map at the end, points, frames with a pose, and errors of the final and the causal
-// trajectory.
+// The sequence is played at its own rate against a clock moved by this program: a frame is tracked
+// at its arrival, and mapping takes the given milliseconds for each keyframe (and sheds work if
+// three wait), whatever the processor. Figures are therefore reproducible. Features are extracted
+// once for all runs. The row "inline" is a run whose mapping is part of the algorithm (slam.lag).
+// Prints a Markdown table: keyframes made, dropped, and in the map at the end, points, frames with
+// a pose, and errors of the final and the causal trajectory.
 #include "plumbline/base/options_io.h"
 #include "plumbline/eval/trajectory_error.h"
 #include "plumbline/io/dataset.h"

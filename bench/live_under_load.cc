@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Live runs over recorded sequences, in real time, beside processes that do nothing but keep the
-// machine busy, or watched by viewers that throw away what they are sent: how many frames are left
-// out and lost, how many maps come of it, the largest gap between two poses, the error, what was
-// shed, the time from an image to its pose, processor time and memory.
+// Live runs over recorded sequences, in real time, beside processes that only load the machine, or
+// watched by viewers that discard their messages: numbers of skipped and lost frames and of maps,
+// the largest gap between two poses, the error, the shed work, the time from an image to its pose,
+// processor time and memory.
 //
 //   live_under_load [--loops 0,2,4,8] [--viewers none,0,1] [--runs 5] [--sequence NAME]...
 //                   [--data DIR] [--program FILE] [--processors 2] [--set KEY=VALUE]...
 //
-// --viewers none is a run without --view (the default), 0 one that nobody looks at. Variants are
-// run in turn.
+// --viewers none is a run without --view (the default), 0 a viewer without clients. Variants run
+// alternately.
 //
-// Prints a Markdown table. What the numbers mean and what they were: docs/benchmarks.md.
+// Prints a Markdown table. Meaning of the numbers, and results: docs/benchmarks.md.
 #include "plumbline/base/error.h"
 
 #include "bench/discarding_viewer.h"

@@ -7,8 +7,8 @@
 
 #include <benchmark/benchmark.h>
 
-// Local bundle adjustment: ours and Ceres, lines by four parameters and by end points. What the
-// numbers mean and what they were: docs/benchmarks.md.
+// Local bundle adjustment: ours and Ceres, lines by four parameters and by end points. Meaning of
+// the numbers, and results: docs/benchmarks.md.
 
 namespace plumbline {
 namespace {

@@ -1,19 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether what a run takes for a place seen again is one, and what its gates refuse:
-// loop_gates [--mono] [--from K] [--beside MAP.plb] [--verbose] SEQUENCE [FRAMES]
+// Correctness of recognized places, and of the refusals by the gates: loop_gates [--mono] [--from
+// K] [--beside MAP.plb] [--verbose] SEQUENCE [FRAMES]
 //
-// Runs the sequence (inline) and holds every keyframe that was compared with the newest one against
-// the truth: an edge is false where the two views share less than a tenth of what they show, or
-// where the relative pose that was measured is off by more than its covariance allows (99.9 % of
-// chi2; one camera: of the rotation, for lengths have no unit). So are relocalizations off by more
-// than 0.3 m or 5 degrees. --beside: with the maps of another world in the atlas, where everything
-// that is recognized in them is false.
+// Runs the sequence (inline) and compares every comparison with the newest keyframe with the truth:
+// an edge is false if the two views share less than a tenth of their content, or if the error of
+// the measured relative pose is above its covariance (99.9 % of chi2; one camera: of the rotation,
+// since the scale is arbitrary). Relocalizations are false if off by more than 0.3 m or 5 degrees.
+// --beside: with the maps of another world in the atlas, in which every recognition is false.
 //
-// Revisits: keyframes that are within 1 m and 30 degrees of one at least 10 s older, the camera
-// having been elsewhere between; those that follow each other are one event. It is recognized where
-// one of them closes a loop or joins maps, or shares landmarks with keyframes at least 10 s older.
+// Revisits: keyframes within 1 m and 30 degrees of one at least 10 s older, the camera having been
+// elsewhere between; successive ones are one event. It is recognized if one of them closes a loop
+// or merges maps, or shares landmarks with keyframes at least 10 s older.
 #include "plumbline/base/error.h"
 #include "plumbline/base/units.h"
 #include "plumbline/io/map_io.h"

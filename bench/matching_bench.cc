@@ -21,8 +21,8 @@
 #include <benchmark/benchmark.h>
 
 // Matching of points and lines, from one image to the next and from left to right. The images are
-// two neighbouring pairs of EuRoC MH_01 where the data is found (PLUMBLINE_DATA), else of the
-// rendered room; the label says which.
+// two neighbouring pairs of EuRoC MH_01 if the data is found (PLUMBLINE_DATA), otherwise of the
+// rendered room, as the label says.
 
 namespace plumbline {
 namespace {

@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How often an index of places finds a place again: place_recall MAP TRUTH [MAP2 [TRUTH2]]. Maps
-// are those of runs (map.plb), the truth is a trajectory of the same sequence. With one map each
-// keyframe asks those that are at least 10 s older, as in a run; with two each keyframe of the
-// second asks all of the first, both in one world; without its truth it is of another world, and
-// every candidate is wrong.
+// Recall of a place index: place_recall MAP TRUTH [MAP2 [TRUTH2]]. Maps are those of runs
+// (map.plb), the truth is a trajectory of the same sequence. With one map each keyframe queries
+// those at least 10 s older, as in a run; with two each keyframe of the second queries all of the
+// first, both in one world; without its truth it is of another world, and every candidate is wrong.
 //
-// A place is seen again where the camera comes within 1 m and 30 degrees of a keyframe; a candidate
-// is wrong when it is further away than 4 m or 75 degrees. For each method: the share of revisits
-// with a right one among the first 1, 5 and 10 candidates; the share whose first candidate is right
-// and scores higher than any wrong first candidate (recall at full precision, with no
-// verification); that score; CPU time of a query.
+// A place is revisited if the camera comes within 1 m and 30 degrees of a keyframe; a candidate is
+// wrong if it is further away than 4 m or 75 degrees. For each method: the share of revisits with a
+// right one among the first 1, 5 and 10 candidates; the share whose first candidate is right and
+// scores higher than any wrong first candidate (recall at full precision, without verification);
+// that score; CPU time of a query.
 #include "plumbline/base/error.h"
 #include "plumbline/base/units.h"
 #include "plumbline/io/map_io.h"

@@ -7,8 +7,8 @@
 
 #include <benchmark/benchmark.h>
 
-// The pose of a frame from matches with known landmarks: ours and Ceres. What the numbers mean and
-// what they were: docs/benchmarks.md.
+// The pose of a frame from matches with known landmarks: ours and Ceres. Meaning of the numbers,
+// and results: docs/benchmarks.md.
 
 namespace plumbline {
 namespace {

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How often a camera that begins somewhere in a saved map is found: relocalization MAP MAPPED
+// Success rate of relocalization at random starts in a saved map: relocalization MAP MAPPED
 // SEQUENCE [STARTS [SEED [KEY=VALUE...]]]
 //
-// MAP is what a run wrote that saw the sequence MAPPED; SEQUENCE shows the same world, in the same
-// world of ground truth. From STARTS (200) different random frames of it a system goes on in the
-// map, which it only reads, for five frames. Once with points and lines, once with points alone
-// (in the same map). KEY=VALUE are options of runs.
+// MAP is the map of a run over the sequence MAPPED; SEQUENCE shows the same world, in the same
+// world of ground truth. From STARTS (200) different random frames of it a system continues in the
+// map, read-only, for five frames. Once with points and lines, once with points alone (in the same
+// map). KEY=VALUE are options of runs.
 //
-// An error is that of the first pose that is reported, as such: the map is aligned with the ground
-// truth by its keyframes, so that what the map is off counts. Beside it that against the nearest
-// keyframe, where it does not.
+// The error is that of the first reported pose: the map is aligned with the ground truth by its
+// keyframes, so that errors of the map count. In addition the error relative to the nearest
+// keyframe, without those of the map.
 #include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/base/random.h"

@@ -5,10 +5,10 @@
 // [--frames 0] [--sensor mono|stereo|rgbd] [--set KEY=VALUE]...
 //
 // Plays a recorded sequence (its first frames) again and again, forwards and backwards in turn, so
-// that the way is closed; every time with fresh stamps, another brightness and fresh noise of the
-// sensor. Prints a Markdown row for each round: what is in the map, memory, CPU time of a frame and
-// of what a keyframe adds to it, a snapshot, a saved map, and the error of the round in the map of
-// that moment [mm]. What is asked of these figures, and what they were: docs/benchmarks.md.
+// that the path is closed; every time with new stamps, another brightness and new noise of the
+// sensor. Prints a Markdown row for each round: contents of the map, memory, CPU time of a frame
+// and of the additional work of a keyframe, a snapshot, a saved map, and the error of the round in
+// the map of that moment [mm]. Requirements and results: docs/benchmarks.md.
 #include "plumbline/base/options_io.h"
 #include "plumbline/eval/trajectory_error.h"
 #include "plumbline/io/dataset.h"

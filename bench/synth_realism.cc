@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares the images of sequences, rendered and recorded: what a feature detector finds in them
-// and finds again, gradients, spectrum, brightness, noise. Prints a Markdown table.
+// Compares the images of rendered and recorded sequences: detected and matched features, gradients,
+// spectrum, brightness, noise. Prints a Markdown table.
 //
 //   synth_realism FOLDER[=CAMERA]...
 //
-// CAMERA is the name or file of a camera where the folder has none.
+// CAMERA is the name or file of a camera if the folder has none.
 #include "plumbline/base/error.h"
 #include "plumbline/features/lbd.h"
 #include "plumbline/features/line_detection.h"

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What showing a large map costs: a made-up map of 300,000 points and 20,000 lines, of which some
-// change between one look and the next, as local adjustment changes them.
+// Cost of displaying a large map: a made-up map of 300,000 points and 20,000 lines, some of which
+// change between updates, as by local adjustment.
 //
 //   view_encoding
 //
-// Prints a Markdown table: processor time of comparing the map (in the thread that maps), of taking
-// the changes in and of encoding them (in the viewer's), and the bytes of an update. What the
-// numbers were: docs/benchmarks.md.
+// Prints a Markdown table: processor time of comparing the map (in the mapping thread), of taking
+// over the changes and of encoding them (in the viewer's), and the bytes of an update. Results:
+// docs/benchmarks.md.
 #include "plumbline/base/random.h"
 #include "plumbline/viewer/map_comparison.h"
 #include "plumbline/viewer/viewed_map.h"
