@@ -21,8 +21,8 @@ struct Rendering {
   DepthImage depth;    // metres along z at the pixel centres; 0 without a hit
 };
 
-// Exposure times of the rows of an image. Row y is open for `exposure` seconds around centre + ((y
-// + 0.5) / height - 0.5) * readout.
+// Exposure times of the rows of an image. Row y is open for `exposure` seconds around
+// centre + ((y + 0.5) / height - 0.5) * readout.
 struct Shutter {
   double centre = 0;    // seconds
   double exposure = 0;  // seconds; 0: an instant
