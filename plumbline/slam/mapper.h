@@ -117,7 +117,7 @@ class Mapper {
   const Atlas& atlas() const { return atlas_; }
   // Closed loops and merged maps, the oldest first.
   const PlaceRecognition& places() const { return places_; }
-  // Lines in the windows of local bundle adjustment, and the mapper's state of the maps.
+  // Number and memory of the lines in local bundle adjustment; the mapper's state of the maps.
   const AdjustedLines& adjusted_lines() const { return local_.adjusted_lines(); }
   LocalMapper::State state() const { return local_.state(); }
 

@@ -123,7 +123,7 @@ class MapperThread {
   // failure. Keyframes that start maps are left out, since they have no parent.
   std::vector<DroppedKeyFrame> NotMapped() const;
 
-  // Lines in the windows of local bundle adjustment.
+  // Number and memory of the lines in local bundle adjustment.
   const AdjustedLines& adjusted_lines() const;
 
   // Closed loops and merged maps.

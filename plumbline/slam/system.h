@@ -161,7 +161,7 @@ class System {
   AtlasContext Context() const;
   // The maps of the atlas by id.
   const std::map<MapId, Map>& maps() const { return atlas().maps(); }
-  // Lines in the windows of local bundle adjustment, summed over all windows.
+  // Number and memory of the lines in local bundle adjustment, summed over all windows.
   const AdjustedLines& adjusted_lines() const;
   // This session so far, as map files store it. Its id is a hash of the first frame's features and
   // stamp, the rig and the options, so that the same input is the same session wherever it is
