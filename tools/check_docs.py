@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks the documents against the repository.
 
-- Links between documents resolve, anchors included.
+- Links between documents (also those of lab/notes) resolve, anchors included.
 - Every decision record is listed in docs/adr/README.md, every page in the README.md of its folder.
 - A page of docs/methods has at most MOST_WORDS words.
 - Comments in the code cite only documents that exist, and equations that a document explains.
@@ -15,7 +15,7 @@ import sys
 
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 EQUATION = re.compile(r"\beq\. (\d+(?:(?:-|, )\d+)*)")
-DOCUMENT = re.compile(r"\bdocs/[\w/.-]+\.md\b")
+DOCUMENT = re.compile(r"\b(?:docs|lab/notes)/[\w/.-]+\.md\b")
 TEST_NAME = re.compile(r"`([A-Z]\w+)\.([A-Z]\w+)`")
 FLAG = re.compile(r"(?<![\w-])--[a-z][a-z-]+")
 BUILT_BY_CMAKE = "build/release/plumbline"
@@ -63,7 +63,7 @@ def link_problems(root, documents):
 
 
 def index_problems(root):
-    for index in sorted((root / "docs").rglob("README.md")):
+    for index in sorted([*(root / "docs").rglob("README.md"), *(root / "lab/notes").glob("README.md")]):
         folder = index.parent
         listed = set(LINK.findall(index.read_text()))
         for page in sorted(folder.glob("*.md")):
@@ -163,7 +163,7 @@ def test_name_problems(root, documents):
 
 
 def problems(root):
-    documents = sorted([*root.glob("*.md"), *(root / "docs").rglob("*.md")])
+    documents = sorted([*root.glob("*.md"), *(root / "docs").rglob("*.md"), *(root / "lab/notes").glob("*.md")])
     sources = sorted(path for folder in ("plumbline", "worlds", "lab", "apps", "tests", "bench")
                      for path in (root / folder).rglob("*") if path.suffix in (".h", ".cc"))
     yield from link_problems(root, documents)

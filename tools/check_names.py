@@ -2,7 +2,7 @@
 """Checks that no name is left that tools/names.txt says has another one now.
 
 A row `word OLD NEW [FOLDER...]` is about an identifier in all files, or in those folders alone; OLD with a dot before it is a
-member. `file OLD NEW` is about a source file, `folder OLD NEW` about a module. CHANGELOG.md and docs/log tell of the past and are
+member. `file OLD NEW` is about a source file, `folder OLD NEW` about a module. CHANGELOG.md and lab/notes tell of the past and are
 left out. Exit status: 0 clean, 1 old names are left (one a line, file:line).
 """
 import pathlib
@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 NAMES = "tools/names.txt"
-PAST = ("CHANGELOG.md", NAMES, "docs/log/")
+PAST = ("CHANGELOG.md", NAMES, "lab/notes/")
 
 
 def rules(root):

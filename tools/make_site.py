@@ -56,7 +56,7 @@ def links_of(page):
 
 
 def pages():
-    return sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
+    return sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "lab/notes").glob("*.md")])
 
 
 def copy_pages(folder):

@@ -16,7 +16,7 @@
   tools/results.py fill                      writes all tables anew
   tools/results.py check                     exit status 1 where a table is not what its file says
 
-A table stands in a document of docs/ between two lines of comment; below it stand command, commit and date:
+A table stands in a document of docs/ or lab/notes/ between two lines of comment; below it stand command, commit and date:
 
   <!-- ratios NAME METRIC... -->
   <!-- end -->
@@ -82,7 +82,7 @@ def starts_of(figures):
 
 
 def documents():
-    return [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+    return [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")), *sorted((ROOT / "lab/notes").glob("*.md"))]
 
 
 # What stands in the documents: kind, name and the further words of each table.

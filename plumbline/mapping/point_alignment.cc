@@ -24,7 +24,7 @@ constexpr double kMinRoundness = 0.15;
 constexpr double kMaxAreaRatio = 50;
 // Deviation of the place of a corner, in pixels of its octave. The shifts that alignment finds
 // suggest 0.3 px. Corners count for more, since errors of alignment are common to the points of a
-// surface, while those of corners are not (docs/log/single-camera.md).
+// surface, while those of corners are not (lab/notes/single-camera.md).
 constexpr double kCornerSigma = 0.2;
 
 const PyramidLevel& LevelOf(const ImagePyramid& pyramid, int level) {

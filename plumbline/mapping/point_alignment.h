@@ -35,7 +35,7 @@ struct KeyFramePatches {
 // A detector's corners in two images are not exactly the same point of the scene. They lie inside
 // of their edges by a fraction of a pixel of their octave, so that an approaching point moves with
 // each octave of its detection. Along a road all points do so, and the scale of a map of one camera
-// shrinks (docs/log/single-camera.md).
+// shrinks (lab/notes/single-camera.md).
 //
 // The reference is therefore the patch around the corner in the oldest of the recent keyframes that
 // show the landmark. It is warped by the depth and the poses as if it faced that camera, and
