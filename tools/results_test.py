@@ -96,6 +96,14 @@ class Results(unittest.TestCase):
         self.assertNotIn("Nothing is kept", text)
         self.assertEqual(results.fill(write=False), 0)
 
+    def test_tables_of_notes_are_filled(self):
+        note = self.root / "lab" / "notes" / "note.md"
+        note.parent.mkdir(parents=True)
+        note.write_text("<!-- runs one ate -->\n<!-- end -->\n")
+        self.record(self.group())
+        results.fill(write=True)
+        self.assertIn("| s | a | 7, 3 the same | 4.2 (4.0-4.4) |", note.read_text())
+
     def test_a_changed_figure_is_noticed(self):
         self.record(self.group())
         results.fill(write=True)
