@@ -212,7 +212,7 @@ def problems(root):
     yield from table_problems()
     yield from part_problems()
     folders = {module_of(path.relative_to(root).as_posix() + "/x")
-               for parent in ("plumbline", "lab") for path in (root / parent).iterdir() if path.is_dir()}
+               for parent in ("plumbline", "lab") for path in (root / parent).iterdir() if path.is_dir() and path.name != "notes"}
     folders |= {RENDERER} if (root / RENDERER).is_dir() else set()
     for module in sorted(folders - LAYERS.keys()):
         yield f"{folder_of(module)}: has no row in the table of tools/check_layering.py"
