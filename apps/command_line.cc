@@ -26,7 +26,7 @@ const CommandOption* FindOption(const CommandSyntax& syntax, std::string_view na
 [[noreturn]] void FailUnknown(const CommandSyntax& syntax, const std::string& name) {
   for (const RemovedOption& removed : syntax.removed) {
     if (removed.name != name) continue;
-    throw InputError(syntax.name + ": " + name + " is no option any more: " + removed.instead);
+    throw InputError(syntax.name + ": " + NoOptionAnyMore(removed));
   }
   std::vector<std::string> names = {"--help"};
   for (const CommandOption& option : syntax.options) names.push_back(option.name);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/options.h"
+
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -19,12 +21,6 @@ struct CommandOption {
   std::string name;   // "--align"
   std::string value;  // its value, "none|se3|sim3"; empty for a switch
   std::string help;   // contains "may be repeated" if it may
-};
-
-// An option of earlier versions. Its use is an error that names the successor.
-struct RemovedOption {
-  std::string name;     // "--resume"
-  std::string instead;  // successor, as a sentence without its full stop
 };
 
 // Syntax of a subcommand.

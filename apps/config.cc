@@ -20,7 +20,10 @@ CommandSyntax ConfigSyntax() {
           "with\n"
           "values, units and ranges. The output is a valid config file.",
           {},
-          {{"--all", "", "all options, also those of the methods, whose defaults are measured"},
+          {{"--all",
+            "",
+            "all options, also those of the methods, whose defaults are measured, and of the "
+            "papers"},
            {"--preset", "NAME", "begin with the options of a paper: rippl, good-line-cutting"},
            {"--config", "FILE", "read options from a YAML file; may be repeated, later files win"},
            {"--set", "KEY=VALUE", "set one option, after all files; may be repeated"}}};
@@ -40,13 +43,14 @@ int ConfigCommand(std::span<const std::string> arguments) {
   for (const std::string& file : line.Values("--config")) table.LoadFile(file);
   for (const std::string& setting : line.Values("--set")) table.Set(setting);
   if (line.Has("--all")) {
-    std::cout << table.Dump();
+    std::cout << ListOptions(table);
     return 0;
   }
   SlamOptions unchanged;
   const OptionTable defaults(unchanged);
   std::cout << table.Dump([&](const OptionField& field) {
-    return IsUserOption(field.key) || OptionTable::ValueOf(field) != defaults.Value(field.key);
+    return TierOf(field.key) == OptionTier::kUser ||
+           OptionTable::ValueOf(field) != defaults.Value(field.key);
   });
   return 0;
 }

@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/slam/options.h"
 #include "plumbline/slam/preset.h"
+#include "plumbline/slam/user_options.h"
 #include "worlds/world.h"
 
 #include "arrays.h"
@@ -90,7 +91,7 @@ bool IsGiven(const py::dict& given, const char* name) {
 
 std::string HelpOfOptions() {
   SlamOptions options;
-  return OptionTable(options).Dump();
+  return ListOptions(OptionTable(options));
 }
 
 }  // namespace

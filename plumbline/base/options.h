@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 namespace plumbline {
 
@@ -51,6 +52,29 @@ struct FieldProbe {
 template <class T>
 concept OptionGroup = requires(T& t, FieldProbe probe) {
   VisitFields(probe, t);
+};
+
+// What was an option in an earlier version. Whoever sets it is told what serves instead. Beside a
+// struct whose fields were options stands a function found by ADL:
+//
+//   inline std::vector<RemovedOption> RemovedOptions(std::type_identity<OrbOptions>) {
+//     return {FixedAt("sigma_px", kCornerSigmaPx, "kCornerSigmaPx")};
+//   }
+struct RemovedOption {
+  std::string name;        // "--resume", or a key in its group (dotted if the group is gone, too)
+  std::string instead;     // a clause without its point
+  std::string value = {};  // of a key: the value of its constant, as files have it; may be empty
+};
+
+// Returns an option that is now a constant of the code with this value and this name.
+RemovedOption FixedAt(std::string_view key, double value, std::string_view constant);
+
+// Returns the message for whoever sets it: "--resume is no option any more: <instead>".
+std::string NoOptionAnyMore(const RemovedOption& removed);
+
+template <class T>
+concept HasRemovedOptions = requires {
+  RemovedOptions(std::type_identity<T>{});
 };
 
 }  // namespace plumbline

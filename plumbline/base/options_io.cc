@@ -157,6 +157,23 @@ std::string Indent(std::string_view key) {
 
 std::string LastPart(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
+// The line of an option in a document, without its indent.
+std::string Line(std::string_view key, const OptionField& field) {
+  return std::string(key) + ": " + OptionTable::ValueOf(field) + "  # " + Comment(field) + "\n";
+}
+
+std::string RemovedMessage(const std::string& where,
+                           const RemovedOption& removed,
+                           const std::string& found) {
+  return where + ": " + NoOptionAnyMore(removed) + ", found " + InQuotes(found);
+}
+
+bool IsValueOf(const RemovedOption& removed, const std::string& text) {
+  if (text == removed.value) return !text.empty();
+  const std::optional<double> found = ParseNumber<double>(text);
+  return found && found == ParseNumber<double>(removed.value);
+}
+
 struct Setting {
   std::string key;
   std::optional<std::string> text;  // nullopt: `key:` without a value
@@ -201,9 +218,30 @@ class Flattener {
 
 }  // namespace
 
+RemovedOption FixedAt(std::string_view key, double value, std::string_view constant) {
+  const std::string text = Shortest(value);
+  return {std::string(key), "it is fixed at " + text + " (" + std::string(constant) + ")", text};
+}
+
+std::string NoOptionAnyMore(const RemovedOption& removed) {
+  return removed.name + " is no option any more: " + removed.instead;
+}
+
+// A group whose options are all removed is still one.
 bool OptionTable::IsGroup(std::string_view key) const {
-  return std::any_of(
-      groups_.begin(), groups_.end(), [key](const Group& group) { return group.key == key; });
+  const std::string inside = std::string(key) + ".";
+  return std::any_of(groups_.begin(),
+                     groups_.end(),
+                     [key](const Group& group) { return group.key == key; }) ||
+         std::any_of(removed_.begin(), removed_.end(), [&](const RemovedOption& removed) {
+           return removed.name.starts_with(inside);
+         });
+}
+
+const RemovedOption* OptionTable::FindRemoved(std::string_view key) const {
+  const auto found = std::find_if(
+      removed_.begin(), removed_.end(), [key](const RemovedOption& r) { return r.name == key; });
+  return found == removed_.end() ? nullptr : &*found;
 }
 
 void OptionTable::Set(const std::string& key, const std::string& text, const std::string& where) {
@@ -215,6 +253,9 @@ void OptionTable::Set(const std::string& key, const std::string& text, const std
   }
   if (IsGroup(key)) {
     throw InputError(where + ": " + key + ": expected a group of options, found " + InQuotes(text));
+  }
+  if (const RemovedOption* removed = FindRemoved(key)) {
+    throw InputError(RemovedMessage(where, *removed, text));
   }
   const std::vector<std::string> keys = Keys();
   const std::optional<std::string> nearest = NearestName(key, keys);
@@ -230,7 +271,9 @@ void OptionTable::LoadFile(const std::filesystem::path& path) {
   LoadText(text, path.string());
 }
 
-void OptionTable::LoadText(const std::string& text, const std::string& source) {
+void OptionTable::LoadText(const std::string& text,
+                           const std::string& source,
+                           const std::function<void(const RemovedSetting&)>& on_removed) {
   const YAML::Node root = ParseYaml(text, source);
   if (!root.IsMap() && !root.IsNull()) {
     throw InputError(source + ":1: expected options as 'key: value', found other YAML");
@@ -246,6 +289,14 @@ void OptionTable::LoadText(const std::string& text, const std::string& source) {
       throw InputError(where + ": " + Printable(setting.key) +
                        ": expected each option once, found it in line " +
                        std::to_string(first->second) + ", too");
+    }
+    if (const RemovedOption* removed = FindRemoved(setting.key)) {
+      const std::string found = setting.text.value_or("");
+      if (IsValueOf(*removed, found)) continue;
+      if (on_removed) {
+        on_removed({setting.key, found, removed->value, RemovedMessage(where, *removed, found)});
+        continue;
+      }
     }
     // A group without options, e.g. all of them commented out, is allowed.
     if (setting.text || !IsGroup(setting.key)) {
@@ -291,8 +342,15 @@ std::string OptionTable::Dump(const std::function<bool(const OptionField&)>& wan
       out += Indent(g->key) + LastPart(g->key) + ":  # " + g->help + "\n";
     }
     open.clear();
-    out += Indent(field.key) + LastPart(field.key) + ": " + ValueOf(field) + "  # " +
-           Comment(field) + "\n";
+    out += Indent(field.key) + Line(LastPart(field.key), field);
+  }
+  return out;
+}
+
+std::string OptionTable::DumpDotted(const std::function<bool(const OptionField&)>& wanted) const {
+  std::string out;
+  for (const OptionField& field : fields_) {
+    if (wanted(field)) out += Line(field.key, field);
   }
   return out;
 }

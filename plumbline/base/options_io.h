@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -35,6 +36,14 @@ struct OptionField {
   Target target;
 };
 
+// A removed option (options.h) that a text sets to another value than that of its constant.
+struct RemovedSetting {
+  std::string key;       // dotted
+  std::string found;     // the value of the text
+  std::string constant;  // the value that counts
+  std::string message;   // the InputError of such a setting
+};
+
 // All options of a tree of option structs (options.h): read from YAML, set one by one, and written
 // back. Holds pointers into the struct it was made from, which must outlive it.
 //
@@ -46,7 +55,9 @@ struct OptionField {
 // Settings apply in the order of the calls; a later one replaces an earlier one. All members that
 // read settings throw InputError: an unknown key (with the nearest valid one), a value of the wrong
 // type, out of range or not among the choices; the message names file and line, the key, what is
-// allowed and what was found. Settings before the faulty one stay applied.
+// allowed and what was found. Settings before the faulty one stay applied. A removed option
+// (options.h) is an InputError, too, which names what serves instead; but files and texts may set
+// it to the value of its constant, so that those of earlier versions are read.
 class OptionTable {
  public:
   template <OptionGroup T>
@@ -56,8 +67,12 @@ class OptionTable {
 
   // Reads a YAML file of nested groups (`ba: {huber_px: 2}`); dotted keys are accepted as well.
   void LoadFile(const std::filesystem::path& path);
-  // Loads options from text; `source` stands for the file name in messages.
-  void LoadText(const std::string& text, const std::string& source);
+  // Loads options from text; `source` stands for the file name in messages. With `on_removed`,
+  // removed options at other values than their constants are told to it and passed over, in place
+  // of an InputError.
+  void LoadText(const std::string& text,
+                const std::string& source,
+                const std::function<void(const RemovedSetting&)>& on_removed = {});
   // Applies one setting "key=value" of the command line.
   void Set(std::string_view assignment);
   // Applies one setting that the caller has parsed; messages begin with `where`, such as
@@ -73,12 +88,16 @@ class OptionTable {
   std::string Dump() const;
   // Returns the same document restricted to the wanted options and their groups.
   std::string Dump(const std::function<bool(const OptionField&)>& wanted) const;
+  // Returns the wanted options with dotted keys, without groups. It may follow a Dump of others.
+  std::string DumpDotted(const std::function<bool(const OptionField&)>& wanted) const;
   // Returns the value of one option as Dump writes it; throws InputError for an unknown key.
   std::string Value(std::string_view key) const;
   static std::string ValueOf(const OptionField& field);
   // Returns the dotted keys of all options, in the order of the structs.
   std::vector<std::string> Keys() const;
   const std::vector<OptionField>& fields() const { return fields_; }
+  // Removed options, by their dotted keys.
+  const std::vector<RemovedOption>& removed() const { return removed_; }
 
  private:
   struct Group {
@@ -111,6 +130,12 @@ class OptionTable {
 
   template <class T>
   void Collect(const std::string& prefix, T& group) {
+    if constexpr (HasRemovedOptions<T>) {
+      for (RemovedOption& removed : RemovedOptions(std::type_identity<T>{})) {
+        removed.name = prefix + removed.name;
+        removed_.push_back(std::move(removed));
+      }
+    }
     VisitFields(Collector{this, prefix}, group);
   }
 
@@ -139,8 +164,10 @@ class OptionTable {
   }
 
   bool IsGroup(std::string_view key) const;
+  const RemovedOption* FindRemoved(std::string_view key) const;
 
   std::vector<OptionField> fields_;
+  std::vector<RemovedOption> removed_;
   std::vector<Group> groups_;
 };
 

@@ -52,7 +52,7 @@ std::optional<LineFeature> MakeLine(const GradientImage& gradient,
   if (segment.Length() < min_length) return std::nullopt;
   LineFeature line;
   line.segment = MeanNormalGradient(gradient, segment) > 0 ? segment.Reversed() : segment;
-  line.sigma_px = std::max(options.min_sigma_px, 1.0);
+  line.sigma_px = std::max(kLeastLineSigmaPx, 1.0);
   if (options.refine) {
     // The fit is repeated, because the first one looked along a normal that was a few degrees off.
     for (const int range : {3, 2}) {
@@ -61,21 +61,23 @@ std::optional<LineFeature> MakeLine(const GradientImage& gradient,
       const double moved = std::max((refined->segment.start - line.segment.start).norm(),
                                     (refined->segment.end - line.segment.end).norm());
       line.segment = refined->segment;
-      line.sigma_px = std::max(options.min_sigma_px, refined->sigma_px);
+      line.sigma_px = std::max(kLeastLineSigmaPx, refined->sigma_px);
       if (moved < kSettledPx) break;
     }
   }
   line.response = -MeanNormalGradient(gradient, line.segment);
-  if (line.response < options.min_contrast) return std::nullopt;
+  if (line.response < RawSegmentOptions{}.min_contrast) return std::nullopt;
   return line;
 }
+
+// The defaults, which are narrow: pieces of two edges that are joined make a line that is none.
+constexpr LineMergeLimits kMergeLimits;
 
 // Joins one collinear neighbour after the other to the longest segment that it continues, if the
 // result is still an edge. `lines` must be ordered with the longest first.
 std::vector<LineFeature> MergeLines(const GradientImage& gradient,
                                     const std::vector<LineFeature>& lines,
                                     const LineDetectionOptions& options) {
-  const LineMergeLimits limits{options.merge_angle_deg, options.merge_offset_px, options.merge_gap};
   const CollinearIndex index(lines);
   std::vector<bool> used(lines.size(), false);
   std::vector<LineFeature> merged;
@@ -85,9 +87,9 @@ std::vector<LineFeature> MergeLines(const GradientImage& gradient,
     used[i] = true;
     for (bool grown = true; grown;) {
       grown = false;
-      for (const std::size_t j : index.Near(line.segment, limits)) {
+      for (const std::size_t j : index.Near(line.segment, kMergeLimits)) {
         if (used[j]) continue;
-        const std::optional<Segment2> joined = Join(gradient, line, lines[j], limits);
+        const std::optional<Segment2> joined = Join(gradient, line, lines[j], kMergeLimits);
         if (!joined) continue;
         const std::optional<LineFeature> candidate = MakeLine(gradient, *joined, 0, options);
         if (!candidate) continue;
@@ -159,8 +161,7 @@ std::vector<LineFeature> DetectLines(const GrayImage& image,
   // Pieces may be shorter when they can still be joined. Drawing jumps small gaps by itself.
   const bool pieces = options.merge && detector != LineDetector::kDrawing;
   const double min_piece = pieces ? 0.6 * min_length : min_length;
-  const RawSegmentOptions raw_options{
-      detector, options.detection_scale, min_piece, options.min_contrast};
+  const RawSegmentOptions raw_options{detector, options.detection_scale, min_piece};
   std::vector<LineFeature> lines;
   for (const Segment2& raw : FindRawSegments(image, gradient, raw_options)) {
     if (raw.Length() < min_piece) continue;
@@ -176,6 +177,15 @@ std::vector<LineFeature> DetectLines(const GrayImage& image,
   }
   std::erase_if(lines, [&](const LineFeature& l) { return l.segment.Length() < min_length; });
   return SelectLines(lines, image.width(), image.height(), static_cast<std::size_t>(count));
+}
+
+std::vector<RemovedOption> RemovedOptions(std::type_identity<LineDetectionOptions> /*of*/) {
+  return {
+      FixedAt("merge_angle_deg", kMergeLimits.angle_deg, "LineMergeLimits::angle_deg"),
+      FixedAt("merge_offset_px", kMergeLimits.offset_px, "LineMergeLimits::offset_px"),
+      FixedAt("merge_gap", kMergeLimits.gap, "LineMergeLimits::gap"),
+      FixedAt("min_contrast", RawSegmentOptions{}.min_contrast, "RawSegmentOptions::min_contrast"),
+      FixedAt("min_sigma_px", kLeastLineSigmaPx, "kLeastLineSigmaPx")};
 }
 
 }  // namespace plumbline

@@ -8,6 +8,7 @@
 #include "plumbline/features/valid_region.h"
 #include "plumbline/image/gradient.h"
 
+#include <type_traits>
 #include <vector>
 
 namespace plumbline {
@@ -15,22 +16,18 @@ namespace plumbline {
 // Blur before the gradient for detecting, refining and describing lines [px].
 inline constexpr double kLineBlurPx = 1;
 
+// Least deviation of an end point across the line [px]: no line, however well it is fitted, may
+// outweigh all others.
+inline constexpr double kLeastLineSigmaPx = 0.2;
+
 struct LineDetectionOptions {
   // Size of the image for detection, relative to the full image.
   double detection_scale = 1;
   // Least length of a segment, relative to the longer side of the image.
   double min_length = 0.035;
   bool merge = true;  // true: collinear neighbours are joined
-  double merge_angle_deg = 1.5;
-  double merge_offset_px = 1.2;  // largest distance across the line
-  // Largest gap between two pieces, relative to the shorter one.
-  double merge_gap = 0.15;
   // True: segments are moved to the sub-pixel peak of the gradient.
   bool refine = true;
-  // Least mean gradient across the line, grey levels per pixel.
-  double min_contrast = 3;
-  // Least deviation of an end point across the line.
-  double min_sigma_px = 0.2;
 };
 
 // Detects straight edges of an image, directed with the bright side on the left (see LineFeature),
@@ -39,9 +36,9 @@ struct LineDetectionOptions {
 // Segments come from the detector (raw_segments.h). Collinear pieces of the same contrast sign are
 // joined over small gaps. Each segment is refitted robustly to the sub-pixel maxima of the
 // directional gradient across it. sigma_px is the deviation of an end point in that fit, but at
-// least min_sigma_px. Parts closer than 3 px to invalid pixels are cut off. `gradient` is that of
-// `image` after a blur by kLineBlurPx. Deterministic. Cost: about 3 ms for 752x480 with the drawing
-// detector.
+// least kLeastLineSigmaPx. Parts closer than 3 px to invalid pixels are cut off. `gradient` is that
+// of `image` after a blur by kLineBlurPx. Deterministic. Cost: about 3 ms for 752x480 with the
+// drawing detector.
 std::vector<LineFeature> DetectLines(const GrayImage& image,
                                      const GradientImage& gradient,
                                      const ValidRegion& valid,
@@ -60,21 +57,8 @@ void VisitFields(Visitor&& visit, LineDetectionOptions& o) {
         "shortest segment relative to the longer side of the image",
         Range{0.005, 0.5});
   visit("merge", o.merge, "join collinear pieces");
-  visit("merge_angle_deg",
-        o.merge_angle_deg,
-        "largest angle between joined pieces [deg]",
-        Range{0, 10});
-  visit("merge_offset_px",
-        o.merge_offset_px,
-        "largest offset across of joined pieces [px]",
-        Range{0, 10});
-  visit("merge_gap", o.merge_gap, "largest gap relative to the shorter piece", Range{0, 5});
   visit("refine", o.refine, "refine segments below the pixel");
-  visit("min_contrast", o.min_contrast, "smallest mean gradient [grey levels/px]", Range{0, 255});
-  visit("min_sigma_px",
-        o.min_sigma_px,
-        "floor of the deviation of an end point [px]",
-        Range{0.01, 10});
 }
+std::vector<RemovedOption> RemovedOptions(std::type_identity<LineDetectionOptions>);
 
 }  // namespace plumbline

@@ -134,6 +134,17 @@ class DistanceTable {
   std::vector<int> best_row_;  // best row of each column; of equal ones the first
 };
 
+// Limits of a match between left and right image. Descriptors may differ as much as between two
+// frames, directions more: the second viewpoint turns near lines.
+constexpr int kMaxDistance = LineMatchOptions{}.max_distance;
+constexpr double kRatio = LineMatchOptions{}.ratio;
+constexpr double kMaxAngleDeg = 30;
+// Least common rows (columns for flat lines) / rows of the shorter line: the detector finds other
+// pieces of an edge in each image.
+constexpr double kLeastOverlap = 0.5;
+// Largest distance of flat lines across the rows: errors of rectification and of both lines.
+constexpr double kMaxRowErrorPx = 2;
+
 // The numbers of a line that matching left and right lines needs repeatedly.
 struct StereoLine {
   Segment2 segment;
@@ -170,12 +181,9 @@ double IntervalOverlap(double a0, double a1, double b0, double b1) {
   return std::max(0.0, std::min(a1, b1) - std::max(a0, b0)) / shorter;
 }
 
-bool SteepCompatible(const Segment2& left,
-                     const Segment2& right,
-                     double max_disparity,
-                     const StereoLineOptions& options) {
+bool SteepCompatible(const Segment2& left, const Segment2& right, double max_disparity) {
   if (IntervalOverlap(left.start.y(), left.end.y(), right.start.y(), right.end.y()) <
-      options.min_overlap) {
+      kLeastOverlap) {
     return false;
   }
   const double top =
@@ -191,21 +199,17 @@ bool SteepCompatible(const Segment2& left,
 }
 
 // Returns true if some disparity of the allowed range brings one line onto the other.
-bool FlatCompatible(const Segment2& left,
-                    const Segment2& right,
-                    double max_disparity,
-                    const StereoLineOptions& options) {
+bool FlatCompatible(const Segment2& left, const Segment2& right, double max_disparity) {
   const double shift = std::clamp(left.Midpoint().x() - right.Midpoint().x(), 0.0, max_disparity);
   if (IntervalOverlap(
           left.start.x(), left.end.x(), right.start.x() + shift, right.end.x() + shift) <
-      options.min_overlap) {
+      kLeastOverlap) {
     return false;
   }
   const Eigen::Vector3d line = LineThrough(left);
   const double near = LineDistance(line, right.Midpoint());
   const double far = near + line.x() * max_disparity;
-  return std::min(near, far) <= options.max_row_error_px &&
-         std::max(near, far) >= -options.max_row_error_px;
+  return std::min(near, far) <= kMaxRowErrorPx && std::max(near, far) >= -kMaxRowErrorPx;
 }
 
 }  // namespace
@@ -238,8 +242,8 @@ std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& ca
                                                        const StereoLineOptions& options) {
   PLUMBLINE_CHECK(camera.baseline > 0, "stereo needs a baseline");
   const double max_disparity = camera.DisparityFromDepth(options.min_depth_m);
-  const double min_cosine = math::Cos(options.max_angle_deg * kDegree);
-  const double flat = FlatSine(options.flat_angle_deg);
+  const double min_cosine = math::Cos(kMaxAngleDeg * kDegree);
+  const double flat = FlatSine(kFlatAngleDeg);
   const std::vector<StereoLine> left_lines = StereoLines(left);
   const std::vector<StereoLine> right_lines = StereoLines(right);
   DistanceTable table(left.size(), right.size());
@@ -249,14 +253,14 @@ std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& ca
       const StereoLine& r = right_lines[j];
       if (l.direction.dot(r.direction) < min_cosine) continue;
       const bool compatible = std::min(l.row_sine, r.row_sine) < flat
-                                  ? FlatCompatible(l.segment, r.segment, max_disparity, options)
-                                  : SteepCompatible(l.segment, r.segment, max_disparity, options);
+                                  ? FlatCompatible(l.segment, r.segment, max_disparity)
+                                  : SteepCompatible(l.segment, r.segment, max_disparity);
       if (compatible) table.Set(i, j, HammingDistance(left[i].descriptor, right[j].descriptor));
     }
   }
   const double calibration_sigma_px = options.calibration_sigma * camera.width;
   std::vector<std::optional<RightLine>> result(left.size());
-  for (const LineMatch& m : table.Match(right, {options.max_distance, options.ratio, true})) {
+  for (const LineMatch& m : table.Match(right, {kMaxDistance, kRatio, true})) {
     const LineFeature& r = right[static_cast<std::size_t>(m.b)];
     // An error of the calibration shifts the line along the rows, and by this much across itself.
     const double shift = calibration_sigma_px * std::abs(r.segment.Direction().y());
@@ -284,6 +288,15 @@ std::optional<LineEndDisparity> LineEndDisparities(const LineFeature& left,
   const LineEndDisparity result{at(left.segment.start), at(left.segment.end)};
   if (result.start.px <= 0 || result.end.px <= 0) return std::nullopt;
   return result;
+}
+
+std::vector<RemovedOption> RemovedOptions(std::type_identity<StereoLineOptions> /*of*/) {
+  return {FixedAt("max_distance", kMaxDistance, "LineMatchOptions::max_distance"),
+          FixedAt("ratio", kRatio, "LineMatchOptions::ratio"),
+          FixedAt("max_angle_deg", kMaxAngleDeg, "kMaxAngleDeg"),
+          FixedAt("min_overlap", kLeastOverlap, "kLeastOverlap"),
+          FixedAt("flat_angle_deg", kFlatAngleDeg, "kFlatAngleDeg"),
+          FixedAt("max_row_error_px", kMaxRowErrorPx, "kMaxRowErrorPx")};
 }
 
 }  // namespace plumbline

@@ -49,23 +49,18 @@ struct StereoLineOptions {
   // Standard deviation of every disparity due to the calibration, relative to the width of the
   // image.
   double calibration_sigma = 8e-4;
-  int max_distance = 80;
-  double ratio = 0.9;
-  double max_angle_deg = 30;
-  // Least common rows (columns for flat lines) / rows of the shorter line.
-  double min_overlap = 0.5;
   double min_depth_m = 0.25;  // least depth, which gives the largest disparity
-  // Lines flatter than this against the rows are matched by their position across the rows.
-  double flat_angle_deg = 5;
-  // Largest distance of flat lines across the rows.
-  double max_row_error_px = 2;
 };
+
+// Lines flatter than this against the rows are matched by their position across the rows: the point
+// where a row meets them is not certain, and a disparity would not be either.
+inline constexpr double kFlatAngleDeg = 5;
 
 // Returns for each left line of a rectified pair its match in the right image, or nullopt.
 //
 // Both lines have the same direction (bright side) and overlap in rows, and the disparities at both
 // ends of the common rows lie in [0, fx * baseline / min_depth_m]. The nearest descriptor wins, in
-// both directions. A line flatter than flat_angle_deg is matched by its position across the rows
+// both directions. A line flatter than kFlatAngleDeg is matched by its position across the rows
 // alone: its RightLine constrains the line's plane, but LineEndDisparities gives nullopt for it.
 std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& camera,
                                                        const std::vector<LineFeature>& left,
@@ -81,10 +76,9 @@ struct LineEndDisparity {
 // the (infinite) right line. sigma_px is the noise of both lines across themselves, divided by the
 // sine of the angle between line and row. Returns nullopt if that angle is below `flat_angle_deg`
 // or a disparity is not positive.
-std::optional<LineEndDisparity> LineEndDisparities(
-    const LineFeature& left,
-    const RightLine& right,
-    double flat_angle_deg = StereoLineOptions{}.flat_angle_deg);
+std::optional<LineEndDisparity> LineEndDisparities(const LineFeature& left,
+                                                   const RightLine& right,
+                                                   double flat_angle_deg = kFlatAngleDeg);
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, StereoLineOptions& o) {
@@ -93,19 +87,8 @@ void VisitFields(Visitor&& visit, StereoLineOptions& o) {
         "deviation that the calibration of the pair adds to every disparity, relative to the width "
         "of the image",
         Range{0, 0.01});
-  visit("max_distance", o.max_distance, "largest Hamming distance of a match", Range{0, 256});
-  visit("ratio", o.ratio, "largest ratio of best to second best distance", Range{0.1, 1});
-  visit("max_angle_deg", o.max_angle_deg, "largest difference of directions [deg]", Range{0, 90});
-  visit("min_overlap", o.min_overlap, "smallest common part of the two lines", Range{0, 1});
   visit("min_depth_m", o.min_depth_m, "nearest depth searched [m]", Range{0.01, 100});
-  visit("flat_angle_deg",
-        o.flat_angle_deg,
-        "angle to the rows below which a line is matched by its place across the rows [deg]",
-        Range{0, 45});
-  visit("max_row_error_px",
-        o.max_row_error_px,
-        "flat lines: largest distance across [px]",
-        Range{0.1, 20});
 }
+std::vector<RemovedOption> RemovedOptions(std::type_identity<StereoLineOptions>);
 
 }  // namespace plumbline

@@ -40,7 +40,8 @@ std::vector<PointMatch> MatchPoints(const std::vector<PointFeature>& a,
 
 struct StereoPointOptions {
   double min_depth_m = 0.25;  // least depth, which determines the largest disparity
-  // Half width of the correlation window at the finest level.
+  // Half width of the correlation window at the finest level, 2 to 15. No option: smaller windows
+  // are less certain, larger ones reach over depth edges more often.
   int window_px = 5;
   // Standard deviation of every disparity due to the pair's calibration, relative to the width of
   // the image: errors of angles and of the lens are the same fraction of an image of any size (8e-4
@@ -75,15 +76,14 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
 template <class Visitor>
 void VisitFields(Visitor&& visit, StereoPointOptions& o) {
   visit("min_depth_m", o.min_depth_m, "nearest depth searched [m]", Range{0.01, 100});
-  visit("window_px",
-        o.window_px,
-        "half width of the correlation window of the finest level [px]",
-        Range{2, 15});
   visit("calibration_sigma",
         o.calibration_sigma,
         "deviation that the calibration of the pair adds to every disparity, relative to the width "
         "of the image",
         Range{0, 0.01});
+}
+inline std::vector<RemovedOption> RemovedOptions(std::type_identity<StereoPointOptions>) {
+  return {FixedAt("window_px", StereoPointOptions{}.window_px, "StereoPointOptions::window_px")};
 }
 
 }  // namespace plumbline

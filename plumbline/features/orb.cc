@@ -330,9 +330,9 @@ void ExtractLevel(const PyramidLevel& level,
     places.push_back(px);
     PointFeature point;
     point.px = level.ToFull(px);
-    const double noise_sigma = options.noise_sigma_px / static_cast<double>(c.response);
+    const double noise_sigma = kCornerNoiseSigmaPx / static_cast<double>(c.response);
     point.sigma_px =
-        math::Hypot(math::Hypot(options.sigma_px, noise_sigma) * scale, calibration_sigma_px);
+        math::Hypot(math::Hypot(kCornerSigmaPx, noise_sigma) * scale, calibration_sigma_px);
     const int x = static_cast<int>(std::lround(px.x()));
     const int y = static_cast<int>(std::lround(px.y()));
     point.angle = CentroidAngle(level.image, x, y);
@@ -400,6 +400,11 @@ std::vector<PointFeature> ExtractOrb(const ImagePyramid& pyramid,
                  &result);
   }
   return result;
+}
+
+std::vector<RemovedOption> RemovedOptions(std::type_identity<OrbOptions> /*of*/) {
+  return {FixedAt("sigma_px", kCornerSigmaPx, "kCornerSigmaPx"),
+          FixedAt("noise_sigma_px", kCornerNoiseSigmaPx, "kCornerNoiseSigmaPx")};
 }
 
 }  // namespace plumbline

@@ -18,14 +18,17 @@ namespace plumbline {
 // without such a corner.
 inline constexpr int kCornerContrast = 20;
 
+// Standard deviation of a sharp corner at octave 0 [px]. This and the next are twice the scatter
+// measured under true poses (docs/methods/disparities.md).
+inline constexpr double kCornerSigmaPx = 0.2;
+// Standard deviation added by noise to a corner with a contrast of one grey level [px]; inversely
+// proportional to the contrast.
+inline constexpr double kCornerNoiseSigmaPx = 6.7;
+
 struct OrbOptions {
   double scale_factor = 1.2;
   // FAST threshold in cells without a corner of kCornerContrast, grey levels.
   int fast_min_threshold = 4;
-  double sigma_px = 0.2;  // standard deviation of a sharp corner at octave 0
-  // Standard deviation added by noise to a corner with a contrast of one grey level; inversely
-  // proportional to the contrast.
-  double noise_sigma_px = 6.7;
   // Standard deviation of every corner due to errors of lens calibration and shutter, relative to
   // the width of the image.
   double calibration_sigma = 5e-4;
@@ -70,11 +73,6 @@ void VisitFields(Visitor&& visit, OrbOptions& o) {
         o.fast_min_threshold,
         "contrast of a corner where there is none of 20 [grey levels]",
         Range{1, 255});
-  visit("sigma_px", o.sigma_px, "deviation of a sharp corner at octave 0 [px]", Range{0.05, 10});
-  visit("noise_sigma_px",
-        o.noise_sigma_px,
-        "deviation that noise adds to a corner [px] times its contrast [grey levels]",
-        Range{0, 100});
   visit(
       "calibration_sigma",
       o.calibration_sigma,
@@ -82,5 +80,6 @@ void VisitFields(Visitor&& visit, OrbOptions& o) {
       "the image",
       Range{0, 0.01});
 }
+std::vector<RemovedOption> RemovedOptions(std::type_identity<OrbOptions>);
 
 }  // namespace plumbline

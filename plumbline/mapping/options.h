@@ -12,36 +12,19 @@
 
 namespace plumbline {
 
+// Constants of new landmarks, no options of a run; load control lowers some, and tests set them.
 struct LandmarkCreationOptions {
-  // Largest deviation, relative to the depth, of points made from one stereo or RGB-D frame.
+  // Largest deviation, relative to the depth, of points made from one stereo or RGB-D frame. Less
+  // certain ones are made of two views.
   double max_relative_depth_sigma = 0.04;
-  // With fewer such points than this, the most certain others are made, too.
+  // With fewer such points than this, the most certain others are made, too: a pose needs some.
   int min_depth_points = 100;
-  // Largest deviation, relative to the depth, of the ends of lines made from one frame.
+  // Largest deviation, relative to the depth, of the ends of lines made from one frame. With
+  // wider limits, lines alone give less accurate poses (docs/log/mapping.md).
   double max_relative_line_depth_sigma = 0.107;
-  // Number of keyframes searched for a second view of a point.
+  // Number of keyframes, the closest ones, searched for a second view of points without landmark.
   int neighbours = 6;
 };
-
-template <class Visitor>
-void VisitFields(Visitor&& visit, LandmarkCreationOptions& o) {
-  visit("max_relative_depth_sigma",
-        o.max_relative_depth_sigma,
-        "depth uncertainty of points from one frame, relative to depth",
-        Range{0.001, 1});
-  visit("min_depth_points",
-        o.min_depth_points,
-        "points with depth that a keyframe should show, if need be less well known ones",
-        Range{0, 10000});
-  visit("max_relative_line_depth_sigma",
-        o.max_relative_line_depth_sigma,
-        "depth uncertainty of the ends of lines from one frame, relative to depth",
-        Range{0.001, 1});
-  visit("neighbours",
-        o.neighbours,
-        "closest keyframes searched for a second view of points without landmark",
-        Range{0, 100});
-}
 
 struct CleanupOptions {
   // Share of a keyframe's landmarks that three others must show to make it redundant.
@@ -62,18 +45,24 @@ void VisitFields(Visitor&& visit, CleanupOptions& o) {
         Range{0.1, 1});
 }
 
+// What local bundle adjustment adjusts. All but parallel_lines are constants, no options of a run;
+// load control lowers some, and tests set them.
 struct LocalBaWindowOptions {
-  // Number of adjusted keyframes, closest in covisibility.
+  // Number of adjusted keyframes, closest in covisibility. The time grows with it.
   int free_keyframes = 12;
   // Largest number of fixed keyframes, which see the same landmarks and fix the window.
   int fixed_keyframes = 20;
-  // Least angle between the views of a line in the window, unless its ends are certain.
+  // Least angle between the views of a line in the window, unless its ends are certain: lines seen
+  // under less move where noise pulls them.
   double min_line_plane_angle_deg = 10;
   // Largest deviation of certain ends, relative to their depth.
   double max_line_relative_sigma = 0.05;
-  // Largest uncertainty of an adjusted keyframe's pose (PoseUncertainty).
+  // Largest uncertainty of an adjusted keyframe's pose (PoseUncertainty), and, at the end of a run,
+  // largest change of two consecutive keyframes against one another: rotation [rad], translation
+  // relative to the depth of the landmarks. With points it is 0.0003 or less.
   double max_pose_sigma = 0.01;
-  // Largest correction of a keyframe relative to the one before, in one window.
+  // Largest correction of a keyframe relative to the one before, in one window. It is wider, since
+  // it has the errors of tracking to correct (docs/methods/mapping.md).
   double max_correction = 0.03;
   bool parallel_lines = true;  // true: lines keep to directions shared by many lines of the map
 
@@ -85,35 +74,23 @@ struct LocalBaWindowOptions {
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, LocalBaWindowOptions& o) {
-  visit("free_keyframes", o.free_keyframes, "keyframes adjusted together", Range{1, 200});
-  visit("fixed_keyframes", o.fixed_keyframes, "keyframes that hold the window", Range{0, 1000});
-  visit("min_line_plane_angle_deg",
-        o.min_line_plane_angle_deg,
-        "angle between interpretation planes from which a line is adjusted [deg]",
-        Range{0, 90});
-  visit("max_line_relative_sigma",
-        o.max_line_relative_sigma,
-        "or from this uncertainty of its ends, relative to their depth",
-        Range{0, 1});
-  visit(
-      "max_pose_sigma",
-      o.max_pose_sigma,
-      "deviation to which its landmarks must fix a keyframe that is adjusted: rotation [rad] and "
-      "translation relative to their depth; when the run ends, two that follow each other may not "
-      "be moved against one another by more",
-      Range{1e-6, 10});
-  visit("max_correction",
-        o.max_correction,
-        "of a keyframe against the one before it, in local adjustment: rotation [rad] and "
-        "translation relative to the depth of its landmarks",
-        Range{1e-6, 10});
   visit("parallel_lines",
         o.parallel_lines,
         "lines that are parallel to many others of the map by chi2 are held so");
 }
 
+// The options of local bundle adjustment that a run has; LocalBaOptions has all of the solver.
+struct RunBaOptions {
+  LocalBaOptions& of;
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, RunBaOptions& o) {
+  visit("robust", o.of.robust, "use the Huber loss");
+}
+
 struct MappingOptions {
-  int fusion_neighbours = 10;
+  int fusion_neighbours = 10;  // keyframes searched for duplicates; no option of a run
   LandmarkCreationOptions creation;
   CleanupOptions cleanup;
   LocalBaWindowOptions window;
@@ -126,12 +103,10 @@ struct MappingOptions {
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, MappingOptions& o) {
-  visit(
-      "fusion_neighbours", o.fusion_neighbours, "keyframes searched for duplicates", Range{0, 100});
-  visit("creation", o.creation, "new landmarks");
   visit("cleanup", o.cleanup, "removal of weak landmarks and redundant keyframes");
   visit("window", o.window, "what local bundle adjustment adjusts");
-  visit("ba", o.ba, "local bundle adjustment");
+  RunBaOptions ba{o.ba};
+  visit("ba", ba, "local bundle adjustment");
   visit("stereo_calibration",
         o.stereo_calibration,
         "learn where the right image is displaced along its rows, and correct all disparities");
@@ -147,6 +122,41 @@ void VisitFields(Visitor&& visit, MappingOptions& o) {
       "only; 0: none",
       Range{0, 10000});
   visit("line_map", o.line_map, "which lines of the finished map are given out");
+}
+
+inline std::vector<RemovedOption> RemovedOptions(std::type_identity<MappingOptions>) {
+  const MappingOptions o;
+  return {
+      FixedAt("fusion_neighbours", o.fusion_neighbours, "MappingOptions::fusion_neighbours"),
+      FixedAt("creation.max_relative_depth_sigma",
+              o.creation.max_relative_depth_sigma,
+              "LandmarkCreationOptions::max_relative_depth_sigma"),
+      FixedAt("creation.min_depth_points",
+              o.creation.min_depth_points,
+              "LandmarkCreationOptions::min_depth_points"),
+      FixedAt("creation.max_relative_line_depth_sigma",
+              o.creation.max_relative_line_depth_sigma,
+              "LandmarkCreationOptions::max_relative_line_depth_sigma"),
+      FixedAt("creation.neighbours", o.creation.neighbours, "LandmarkCreationOptions::neighbours"),
+      FixedAt(
+          "window.free_keyframes", o.window.free_keyframes, "LocalBaWindowOptions::free_keyframes"),
+      FixedAt("window.fixed_keyframes",
+              o.window.fixed_keyframes,
+              "LocalBaWindowOptions::fixed_keyframes"),
+      FixedAt("window.min_line_plane_angle_deg",
+              o.window.min_line_plane_angle_deg,
+              "LocalBaWindowOptions::min_line_plane_angle_deg"),
+      FixedAt("window.max_line_relative_sigma",
+              o.window.max_line_relative_sigma,
+              "LocalBaWindowOptions::max_line_relative_sigma"),
+      FixedAt(
+          "window.max_pose_sigma", o.window.max_pose_sigma, "LocalBaWindowOptions::max_pose_sigma"),
+      FixedAt(
+          "window.max_correction", o.window.max_correction, "LocalBaWindowOptions::max_correction"),
+      FixedAt("ba.rounds", o.ba.rounds, "MappingOptions::ba"),
+      FixedAt("ba.max_iterations", o.ba.max_iterations, "MappingOptions::ba"),
+      FixedAt("ba.function_tolerance", o.ba.function_tolerance, "MappingOptions::ba"),
+      FixedAt("ba.rejection_tolerance", o.ba.rejection_tolerance, "MappingOptions::ba")};
 }
 
 }  // namespace plumbline

@@ -19,10 +19,10 @@ namespace plumbline {
 // residual of eq. 13 here, independent of lines.residual, and no parallelism.
 //
 // Some keyframes are fixed: the first one, those that the points and well observed lines do not
-// determine to mapping.window.max_pose_sigma, and both of two consecutive keyframes that would move
-// relative to one another by more than that (SolveWithPoseLimits). With a single camera the median
-// depth of the first keyframe's landmarks is kept, and each keyframe is scaled by the change of the
-// depths of its landmarks (KeyFrame::scale).
+// determine to LocalBaWindowOptions::max_pose_sigma, and both of two consecutive keyframes that
+// would move relative to one another by more than that (SolveWithPoseLimits). With a single camera
+// the median depth of the first keyframe's landmarks is kept, and each keyframe is scaled by the
+// change of the depths of its landmarks (KeyFrame::scale).
 //
 // With a single camera, the remaining radial distortion of the lens is first estimated from the
 // points and removed from all measurements (CalibrateRadialDistortion, mapping.lens_calibration).
@@ -43,8 +43,8 @@ MapCorrection AdjustWholeMap(const Map& map,
 // Estimates the lens of a single camera from the points of a growing map
 // (CalibrateRadialDistortion), and adjusts keyframes and points to it. The newest keyframe that
 // points determine keeps its pose and scale, so that tracking continues without a step. Keyframes
-// that points do not determine to mapping.window.max_pose_sigma are not in the correction, so that
-// they move with their parents. Lines move with the keyframes that show them.
+// that points do not determine to LocalBaWindowOptions::max_pose_sigma are not in the correction,
+// so that they move with their parents. Lines move with the keyframes that show them.
 //
 // Returns an empty correction without a change of the lens, and when stopped. Cost:
 // CalibrateRadialDistortion, and after a change one more adjustment of the points.

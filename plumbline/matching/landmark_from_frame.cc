@@ -19,9 +19,6 @@ bool DepthIsKnown(const Disparity& disparity, double max_relative_sigma) {
   return disparity.px > 0 && disparity.sigma_px <= max_relative_sigma * disparity.px;
 }
 
-// Flatter lines have no depth that could be trusted by itself.
-constexpr double kFlatAngleDeg = StereoLineOptions{}.flat_angle_deg;
-
 // Returns the disparities of the ends of a line that the right image shows, too.
 std::optional<LineEndDisparity> MeasuredEnds(const Frame& frame,
                                              std::size_t i,

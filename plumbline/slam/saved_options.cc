@@ -7,10 +7,24 @@
 
 namespace plumbline {
 
-SlamOptions SavedOptions(const AtlasContext& context, const std::string& source) {
+namespace {
+
+// Returns the value that a removed option would have with these settings.
+std::string ValueOf(const RemovedOption& removed, const std::vector<RemovedSetting>& settings) {
+  for (const RemovedSetting& setting : settings) {
+    if (setting.key == removed.name) return setting.found;
+  }
+  return removed.value;
+}
+
+}  // namespace
+
+SlamOptions SavedOptions(const AtlasContext& context,
+                         const std::string& source,
+                         const std::function<void(const RemovedSetting&)>& on_removed) {
   SlamOptions options;
   if (!context.options_yaml.empty()) {
-    OptionTable(options).LoadText(context.options_yaml, source);
+    OptionTable(options).LoadText(context.options_yaml, source, on_removed);
   }
   return options;
 }
@@ -21,7 +35,8 @@ SlamOptions SavedOptionsOrDefault(const AtlasContext& context,
                                   const std::function<void(const std::string&)>& remark,
                                   const std::function<void(SlamOptions&)>& accept) {
   try {
-    SlamOptions options = SavedOptions(context, source);
+    SlamOptions options = SavedOptions(
+        context, source, [&](const RemovedSetting& removed) { remark(removed.message); });
     if (accept) accept(options);
     return options;
   } catch (const InputError& error) {
@@ -40,11 +55,20 @@ std::vector<std::string> FrontEndDifferences(const AtlasContext& of_map, const A
           std::to_string(of_map.feature_format),
           std::to_string(now.feature_format));
   try {
-    SlamOptions before = SavedOptions(of_map, "its options"), after = SavedOptions(now, "options");
+    std::vector<RemovedSetting> removed_before, removed_after;
+    SlamOptions before = SavedOptions(of_map, "its options", [&](const RemovedSetting& removed) {
+      removed_before.push_back(removed);
+    });
+    SlamOptions after = SavedOptions(
+        now, "options", [&](const RemovedSetting& removed) { removed_after.push_back(removed); });
     const OptionTable a(before), b(after);
     for (const std::string& key : b.Keys()) {
       const bool changes_results = key != "features.parallel";
       if (key.starts_with("features.") && changes_results) compare(key, a.Value(key), b.Value(key));
+    }
+    for (const RemovedOption& removed : b.removed()) {
+      if (!removed.name.starts_with("features.")) continue;
+      compare(removed.name, ValueOf(removed, removed_before), ValueOf(removed, removed_after));
     }
   } catch (const InputError& error) {
     differences.emplace_back(error.what());

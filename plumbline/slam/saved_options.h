@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/options_io.h"
 #include "plumbline/map/saved_atlas.h"
 #include "plumbline/slam/options.h"
 
@@ -12,11 +13,15 @@
 namespace plumbline {
 
 // Returns the options that determined the results of saved maps; the default options if the file
-// has none. Throws InputError, which names `source`, if this version of the program does not know
-// an option or a value.
-SlamOptions SavedOptions(const AtlasContext& context, const std::string& source);
+// has none. Options of earlier versions that were removed are passed over; those at other values
+// than their constants are reported to `on_removed`. Throws InputError, which names `source`, if no
+// version of the program until this one knows an option or a value.
+SlamOptions SavedOptions(const AtlasContext& context,
+                         const std::string& source,
+                         const std::function<void(const RemovedSetting&)>& on_removed);
 
-// Returns SavedOptions, after `accept` (if given) has accepted them. If one of the two throws
+// Returns SavedOptions, after `accept` (if given) has accepted them, and reports to `remark` the
+// removed options that had another value. If one of the two throws
 // InputError, returns the default options and reports the error and its consequence to `remark`:
 // "<error>; <instead>".
 SlamOptions SavedOptionsOrDefault(const AtlasContext& context,

@@ -8,7 +8,7 @@
 namespace plumbline {
 namespace {
 
-constexpr std::array<std::string_view, 31> kUserOptions = {"slam.mode",
+constexpr std::array<std::string_view, 27> kUserOptions = {"slam.mode",
                                                            "slam.seed",
                                                            "slam.lag",
                                                            "features.points",
@@ -20,14 +20,8 @@ constexpr std::array<std::string_view, 31> kUserOptions = {"slam.mode",
                                                            "features.line.min_length",
                                                            "features.depth.min_depth_m",
                                                            "features.depth.max_depth_m",
-                                                           "lines.weighting",
-                                                           "cutting.method",
-                                                           "cutting.information",
                                                            "cutting.budget",
-                                                           "initialization.method",
                                                            "initialization.frames",
-                                                           "initialization.matching",
-                                                           "tracking.reference",
                                                            "tracking.new_map_after",
                                                            "tracking.keyframes.min_frames",
                                                            "tracking.keyframes.max_frames",
@@ -38,12 +32,58 @@ constexpr std::array<std::string_view, 31> kUserOptions = {"slam.mode",
                                                            "mapping.lens_calibration",
                                                            "mapping.final_adjustment_keyframes",
                                                            "mapping.line_map.min_keyframes",
+                                                           "mapping.line_map.max_mean_chi2",
+                                                           "mapping.line_map.min_mean_length_px",
                                                            "loop.enabled"};
+
+constexpr std::array<std::string_view, 27> kPaperOptions = {
+    "features.line.merge",
+    "features.line.refine",
+    "lines.parametrization",
+    "lines.residual",
+    "lines.reconstruction",
+    "lines.weighting",
+    "lines.constant_sigma_px",
+    "lines.min_length_ratio",
+    "lines.rotation_gate",
+    "cutting.method",
+    "cutting.information",
+    "cutting.ends",
+    "cutting.end_sigma",
+    "cutting.drop_share",
+    "initialization.method",
+    "initialization.relative_pose",
+    "initialization.factorize",
+    "initialization.interpolate",
+    "initialization.min_line_angle_deg",
+    "initialization.reweighting",
+    "initialization.matching",
+    "initialization.pairwise.missing",
+    "initialization.pairwise.reject_outliers",
+    "initialization.pairwise.adjust",
+    "tracking.reference",
+    "mapping.window.parallel_lines",
+    "mapping.ba.robust"};
+
+constexpr const char* kPapersHeading =
+    "\n# Of the papers' presets: what these, their experiments and their controls set.\n";
 
 }  // namespace
 
-bool IsUserOption(std::string_view key) {
-  return std::find(kUserOptions.begin(), kUserOptions.end(), key) != kUserOptions.end();
+OptionTier TierOf(std::string_view key) {
+  const auto holds = [key](const auto& keys) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+  };
+  if (holds(kUserOptions)) return OptionTier::kUser;
+  return holds(kPaperOptions) ? OptionTier::kPaper : OptionTier::kMethod;
+}
+
+std::string ListOptions(const OptionTable& table) {
+  const auto of_papers = [](const OptionField& field) {
+    return TierOf(field.key) == OptionTier::kPaper;
+  };
+  return table.Dump([&](const OptionField& field) { return !of_papers(field); }) + kPapersHeading +
+         table.DumpDotted(of_papers);
 }
 
 }  // namespace plumbline

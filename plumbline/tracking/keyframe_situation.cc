@@ -10,8 +10,8 @@ namespace plumbline {
 namespace {
 
 // Number of keyframes that observe a well observed landmark (fewer in a recent map). Differs from
-// tracking.established_views, which defines trusted landmarks, may be 0, and is the same with one
-// camera.
+// TrackingOptions::established_views, which defines trusted landmarks, may be 0, and is the same
+// with one camera.
 constexpr int kWellObserved = 3;
 // With one camera a landmark has two views from the beginning. If few landmarks live longer, a
 // limit of three views would lose all of them before a keyframe is made.

@@ -8,6 +8,7 @@
 #include <array>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace plumbline {
 
@@ -20,21 +21,26 @@ constexpr auto EnumNames(std::type_identity<TrackingReference>) {
 
 struct TrackingOptions {
   TrackingReference reference = TrackingReference::kLocalMap;
-  // A pose is accepted when its deviations (PoseUncertainty) are at most this.
+  int min_initial = 60;    // points plus lines with depth that are enough to start a map
+  int new_map_after = 10;  // a new map starts after so many lost frames
+  KeyFramePolicyOptions keyframes;
+
+  // The rest are no options of a run: constants, which tests set (docs/methods/tracking.md).
+
+  // A pose is accepted when its deviations (PoseUncertainty) are at most this: rotation [rad], and
+  // translation relative to the depth of the scene. With points they are 0.0003 or less.
   double max_pose_sigma = 0.02;
   // A pose that is known this well, from enough_inliers inliers, needs no landmarks of uncertain
-  // depth.
+  // depth. Twenty points and twenty lines can promise a good pose and still be wrong.
   double enough_pose_sigma = 0.002;
   int enough_inliers = 60;
-  // A landmark that so many keyframes show is established: younger ones cannot outvote it.
+  // A landmark that so many keyframes show is established: where these fix the pose to
+  // enough_pose_sigma, younger ones cannot outvote them. 0: all count alike.
   int established_views = 3;
-  int min_initial = 60;          // points plus lines with depth that are enough to start a map
   bool point_covariance = true;  // whether the pose counts the uncertainty of depths from one frame
-  int new_map_after = 10;        // a new map starts after so many lost frames
   // A map of a single camera is given up as soon as it loses the camera, until it has so many
-  // keyframes more than at its start.
+  // keyframes more than at its start: a wrong start shows by then.
   int trial_keyframes = 5;
-  KeyFramePolicyOptions keyframes;
 };
 
 template <class Visitor>
@@ -44,38 +50,22 @@ void VisitFields(Visitor&& visit, TrackingOptions& o) {
       o.reference,
       "what a frame is tracked against: local_map, or last_frame (odometry: points and lines with "
       "depth of the frame before alone, only the first frame becomes a keyframe; needs depth)");
-  visit("max_pose_sigma",
-        o.max_pose_sigma,
-        "deviation to which points and lines, and the motion before, must fix a pose: rotation "
-        "[rad] and translation relative to the depth of the scene",
-        Range{1e-6, 10});
-  visit("enough_pose_sigma",
-        o.enough_pose_sigma,
-        "the same, from which on no landmarks of more uncertain depth are searched",
-        Range{1e-6, 10});
-  visit("enough_inliers",
-        o.enough_inliers,
-        "points + lines that agree with it, below which they are searched all the same",
-        Range{0, 100000});
-  visit("established_views",
-        o.established_views,
-        "keyframes that show an established landmark: where these fix the pose to "
-        "enough_pose_sigma, others cannot outvote them; 0: all count alike",
-        Range{0, 1000});
   visit("min_initial", o.min_initial, "points + lines with depth to start a map", Range{10, 10000});
-  visit("point_covariance",
-        o.point_covariance,
-        "points made from one frame weigh in the pose as the uncertainty of their place says (with "
-        "local_map not in the first search, which uses well-known depths only)");
   visit("new_map_after",
         o.new_map_after,
         "lost frames after which a new map starts",
         Range{1, 100000});
-  visit("trial_keyframes",
-        o.trial_keyframes,
-        "keyframes after the start from a single camera until which one lost frame ends the map",
-        Range{0, 100});
   visit("keyframes", o.keyframes, "when a frame becomes a keyframe");
+}
+
+inline std::vector<RemovedOption> RemovedOptions(std::type_identity<TrackingOptions>) {
+  const TrackingOptions o;
+  return {FixedAt("max_pose_sigma", o.max_pose_sigma, "TrackingOptions::max_pose_sigma"),
+          FixedAt("enough_pose_sigma", o.enough_pose_sigma, "TrackingOptions::enough_pose_sigma"),
+          FixedAt("enough_inliers", o.enough_inliers, "TrackingOptions::enough_inliers"),
+          FixedAt("established_views", o.established_views, "TrackingOptions::established_views"),
+          {"point_covariance", "it is fixed at true (TrackingOptions::point_covariance)", "true"},
+          FixedAt("trial_keyframes", o.trial_keyframes, "TrackingOptions::trial_keyframes")};
 }
 
 // Whether, and for how long, a lost camera is looked for in its map.

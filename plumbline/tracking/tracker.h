@@ -34,7 +34,7 @@ enum class TrackingFailure {
   kNotRelocalized,     // lost, and not relocalized yet
   kTooFewMatches,      // too few landmarks were matched
   kTooFewInliers,      // too few of the matches agree on a pose
-  kPoseNotObservable,  // the inliers do not determine the pose to tracking.max_pose_sigma
+  kPoseNotObservable,  // the inliers do not determine the pose to max_pose_sigma
   kMapWithdrawn        // the map proved wrong (MapSnapshot::withdrawn)
 };
 constexpr auto EnumNames(std::type_identity<TrackingFailure>) {
@@ -93,8 +93,9 @@ struct TrackingResult {
   std::optional<Rigid3> cam_from_world;  // nullopt if tracking failed
   // Covariance of the left perturbation [rotation, translation] of cam_from_world, by the inliers
   // and the motion so far, relative to a map that counts as exact (except the depths of points from
-  // a single frame, if tracking.point_covariance is on). Nullopt if the pose was not estimated from
-  // matches: that of a first frame is chosen, that of a monocular start is adjusted with its map.
+  // a single frame, if TrackingOptions::point_covariance is on). Nullopt if the pose was not
+  // estimated from matches: that of a first frame is chosen, that of a monocular start is adjusted
+  // with its map.
   std::optional<Matrix6d> covariance;
   KeyFrameId reference;  // reference keyframe of the pose
   RelativePose from_reference;

@@ -125,12 +125,30 @@ TEST(Program, ConfigShowsWhatUsersSetAndWhatWasChanged) {
   };
   const std::string users = RunProgram("config").out, all = RunProgram("config --all").out;
   EXPECT_THAT(users, HasSubstr("point_count: 1000 "));
-  EXPECT_THAT(users, Not(HasSubstr("max_iterations")));
-  EXPECT_THAT(all, HasSubstr("max_iterations"));
+  EXPECT_THAT(users, Not(HasSubstr("redundant_share")));
+  EXPECT_THAT(all, HasSubstr("redundant_share"));
+  EXPECT_THAT(all, HasSubstr("\nmapping.ba.robust: true "));
   EXPECT_GT(options(all), 2 * options(users));
-  const std::string changed = RunProgram("config --set mapping.ba.rounds=3").out;
-  EXPECT_THAT(changed, HasSubstr("  ba:  # local bundle adjustment\n    rounds: 3 "));
-  EXPECT_THAT(changed, Not(HasSubstr("max_iterations")));
+  const std::string changed = RunProgram("config --set mapping.ba.robust=false").out;
+  EXPECT_THAT(changed, HasSubstr("  ba:  # local bundle adjustment\n    robust: false "));
+  EXPECT_THAT(changed, Not(HasSubstr("redundant_share")));
+}
+
+TEST(Program, NamesTheConstantOfAnOptionThatWasRemoved) {
+  const ScratchFolder folder;
+  const std::string file = folder.Write("c.yaml", "mapping:\n  ba:\n    rounds: 3\n").string();
+  const std::string why =
+      "mapping.ba.rounds is no option any more: it is fixed at 2 (MappingOptions::ba), found '3'\n";
+  for (const auto& [arguments, where] :
+       {std::pair{"--set mapping.ba.rounds=3", std::string("--set mapping.ba.rounds=3: ")},
+        std::pair{"--config FILE", file + ":3: "}}) {
+    std::string command = std::string("config ") + arguments;
+    if (const auto at = command.find("FILE"); at != std::string::npos) command.replace(at, 4, file);
+    const Outcome outcome = RunProgram(command);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_THAT(outcome.err, testing::EndsWith(where + why));
+  }
 }
 
 TEST(Program, InfoDescribesARealSequence) {

@@ -40,6 +40,12 @@ void VisitFields(Visitor&& visit, InnerOptions& o) {
   visit("iterations", o.iterations, "iterations per solve", Range{1});
 }
 
+std::vector<RemovedOption> RemovedOptions(std::type_identity<InnerOptions> /*of*/) {
+  return {FixedAt("damping", 0.5, "kDamping"),
+          {"loss.kind", "it is fixed at huber (HuberLoss)", "huber"},
+          {"kernel", "loss.kind took its place"}};
+}
+
 struct OuterOptions {
   bool lines = true;
   Shape shape = Shape::kRound;
@@ -276,6 +282,62 @@ TEST(OptionTable, GivesSingleValues) {
   EXPECT_EQ(table.Value("ba.huber_px"), "2.45");
   EXPECT_EQ(table.Value("shape"), "round");
   EXPECT_THROW((void)table.Value("nothing"), InputError);
+}
+
+TEST(OptionTable, RefusesRemovedOptionsAndNamesWhatServesInstead) {
+  EXPECT_EQ(ErrorOfYaml("ba:\n  damping: 0.6"),
+            "my.yaml:2: ba.damping is no option any more: it is fixed at 0.5 (kDamping), found "
+            "'0.6'");
+  EXPECT_EQ(ErrorOfYaml("ba.loss.kind:"),
+            "my.yaml:1: ba.loss.kind is no option any more: it is fixed at huber (HuberLoss), "
+            "found ''");
+  EXPECT_EQ(ErrorOfYaml("ba: {kernel: huber}"),
+            "my.yaml:1: ba.kernel is no option any more: loss.kind took its place, found 'huber'");
+  EXPECT_EQ(ErrorOfSet("ba.damping=0.5"),
+            "--set ba.damping=0.5: ba.damping is no option any more: it is fixed at 0.5 "
+            "(kDamping), found '0.5'");
+}
+
+// Files that an earlier version wrote hold all of its options, most of them at their defaults.
+TEST(OptionTable, ReadsRemovedOptionsAtTheValuesOfTheirConstants) {
+  EXPECT_EQ(ErrorOfYaml("ba: {damping: 0.50, iterations: 3, loss: {kind: huber}}"), "no error");
+  EXPECT_EQ(ErrorOfYaml("ba:\n  damping: 5e-1\n  loss:\n"), "no error");
+  OuterOptions options;
+  const OptionTable table(options);
+  std::vector<std::string> keys;
+  for (const RemovedOption& removed : table.removed()) keys.push_back(removed.name);
+  EXPECT_THAT(keys, ElementsAre("ba.damping", "ba.loss.kind", "ba.kernel"));
+  EXPECT_THAT(table.Dump(), Not(HasSubstr("damping")));
+}
+
+TEST(OptionTable, TellsOfRemovedOptionsInPlaceOfAnErrorWhereAsked) {
+  OuterOptions options;
+  OptionTable table(options);
+  std::vector<RemovedSetting> told;
+  table.LoadText("ba: {damping: 0.6, loss.kind: huber, iterations: 7}",
+                 "m.plb",
+                 [&](const RemovedSetting& setting) { told.push_back(setting); });
+  EXPECT_EQ(options.ba.iterations, 7);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].key, "ba.damping");
+  EXPECT_EQ(told[0].found, "0.6");
+  EXPECT_EQ(told[0].constant, "0.5");
+  EXPECT_EQ(told[0].message,
+            "m.plb:1: ba.damping is no option any more: it is fixed at 0.5 (kDamping), found "
+            "'0.6'");
+}
+
+TEST(OptionTable, DumpsOptionsWithDottedKeysBehindOthers) {
+  OuterOptions options;
+  options.ba.iterations = 4;
+  const OptionTable table(options);
+  const auto inner = [](const OptionField& field) { return field.key.starts_with("ba."); };
+  const std::string dotted = table.DumpDotted(inner);
+  EXPECT_THAT(dotted, HasSubstr("\nba.iterations: 4  # iterations per solve (at least 1)\n"));
+  OuterOptions again;
+  OptionTable read(again);
+  read.LoadText(table.Dump([&](const OptionField& field) { return !inner(field); }) + dotted, "");
+  EXPECT_EQ(read.Dump(), table.Dump());
 }
 
 }  // namespace options_io_test

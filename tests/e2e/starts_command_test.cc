@@ -57,8 +57,7 @@ TEST(StartsCommand, TakesThePresetOfAPaper) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto summary = nlohmann::json::parse(Contents(folder / "out/summary.json"));
   const std::string options = summary["options"];
-  const Outcome run =
-      RunProgram(folder, "config --all --preset rippl --set features.point_count=2000");
+  const Outcome run = RunProgram(folder, "config --preset rippl --set features.point_count=2000");
   for (const char* key : {"point_count:",
                           "line_detector:",
                           "line_count:",

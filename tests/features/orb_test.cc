@@ -84,7 +84,7 @@ TEST(Orb, DeviationFollowsTheContrast) {
             1.2 * UpperMedian(std::span<double>(sigma[0])));
   EXPECT_LT(UpperMedian(std::span<double>(moved[0])), 1.18);  // of two components of one deviation
   EXPECT_LT(UpperMedian(std::span<double>(moved[1])), 1.18);
-  for (const PointFeature& p : a) EXPECT_GE(p.sigma_px, OrbOptions{}.sigma_px * ScaleOf(p, {}));
+  for (const PointFeature& p : a) EXPECT_GE(p.sigma_px, kCornerSigmaPx * ScaleOf(p, {}));
 }
 
 TEST(Orb, FollowsASubPixelShift) {

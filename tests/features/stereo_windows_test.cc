@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
-#include "plumbline/base/options_io.h"
 #include "plumbline/features/match_points.h"
 
 #include "tests/features/render.h"
@@ -115,18 +114,6 @@ TEST(StereoPoints, SayWhatTheyCannotWorkWith) {
   EXPECT_THAT(error([&] { Match(one, two, 5); }), HasSubstr("pyramids of one kind"));
   EXPECT_THAT(error([&] { Match(one, one, 5, 0); }), HasSubstr("stereo needs a baseline"));
   EXPECT_EQ(error([&] { Match(one, one, 15); }), "no error");
-}
-
-// What the matcher has room for, and where a window has slopes at all.
-TEST(StereoPointOptions, AllowWindowsOf2To15Pixels) {
-  StereoPointOptions options;
-  OptionTable table(options);
-  for (const int allowed : {2, 15}) {
-    table.Set("window_px=" + std::to_string(allowed));
-    EXPECT_EQ(options.window_px, allowed);
-  }
-  EXPECT_THROW(table.Set("window_px=1"), InputError);
-  EXPECT_THROW(table.Set("window_px=16"), InputError);
 }
 
 }  // namespace stereo_windows_test

@@ -159,8 +159,13 @@ CASES = {
                               "slam.mode: expected a number, True, False, a text or a "
                               "dictionary, found list"),
     "option that is None": (lambda: plumbline.options(slam={"seed": None}), "found NoneType"),
-    "option that is NaN": (lambda: plumbline.options(**{"tracking.max_pose_sigma": NAN}),
+    "option that is NaN": (lambda: plumbline.options(**{"features.line.min_length": NAN}),
                            "expected a number"),
+    "option that is a constant now": (lambda: plumbline.options(**{"tracking.max_pose_sigma": 0.01}),
+                                      r"tracking.max_pose_sigma is no option any more: it is fixed at 0.02 "
+                                      r"\(TrackingOptions::max_pose_sigma\)"),
+    "constant of lines": (lambda: plumbline.detect_lines(GRAY, merge_gap=1),
+                          r"merge_gap is no option any more: it is fixed at 0.15"),
     "option that is an array": (lambda: plumbline.options(slam={"seed": np.zeros(2)}),
                                 "found an array of float64"),
     "option without a name": (lambda: plumbline.options(slam={1: 2}), "expected names of options"),

@@ -83,13 +83,14 @@ def test_options_in_groups_and_with_dots():
     assert defaults["features"]["line"]["merge"] is True
     changed = plumbline.options(features={"line_count": np.int32(50), "line": {"merge": False}},
                                 **{"slam.seed": 7, "slam.mode": "inline",
-                                   "tracking.max_pose_sigma": np.float64(0.01)})
+                                   "mapping.line_map.max_relative_sigma": np.float64(0.01)})
     assert changed["features"]["line_count"] == 50
     assert changed["features"]["line"]["merge"] is False
     assert changed["slam"] == {"mode": "inline", "seed": 7, "lag": defaults["slam"]["lag"]}
-    assert changed["tracking"]["max_pose_sigma"] == 0.01
+    assert changed["mapping"]["line_map"]["max_relative_sigma"] == 0.01
     assert plumbline.options(**changed) == changed
     assert "line_count: 200" in plumbline.describe_options()
+    assert "\nlines.residual: observed_ends " in plumbline.describe_options()
     camera = plumbline.pinhole(640, 480, 500, 500, 320, 240)
     assert plumbline.System(camera, **changed).options == changed
 

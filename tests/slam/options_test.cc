@@ -121,5 +121,31 @@ TEST(SlamOptions, EveryNumberHasBounds) {
   }
 }
 
+// Folders of runs and maps of 0.2.0 hold all of its options.
+TEST(SlamOptions, ReadFilesOf0_2_0) {
+  SlamOptions options;
+  OptionTable table(options);
+  const std::string now = table.Dump();
+  std::string earlier;
+  for (const RemovedOption& removed : table.removed()) {
+    ASSERT_NE(removed.value, "") << removed.name;
+    earlier += removed.name + ": " + removed.value + "\n";
+  }
+  EXPECT_THAT(earlier, ::testing::HasSubstr("tracking.max_pose_sigma: 0.02\n"));
+  EXPECT_THAT(earlier, ::testing::HasSubstr("features.stereo_lines.ratio: 0.9\n"));
+  EXPECT_THAT(earlier, ::testing::HasSubstr("mapping.ba.function_tolerance: 0.001\n"));
+  table.LoadText(now + earlier, "earlier");
+  EXPECT_EQ(table.Dump(), now);
+  table.LoadText("mapping:\n  creation:\n  window: {free_keyframes: 12}\n", "groups");
+  try {
+    table.LoadText("mapping:\n  window: {free_keyframes: 20}\n", "other.yaml");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "other.yaml:2: mapping.window.free_keyframes is no option any more: it is fixed "
+                 "at 12 (LocalBaWindowOptions::free_keyframes), found '20'");
+  }
+}
+
 }  // namespace
 }  // namespace plumbline

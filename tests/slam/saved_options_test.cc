@@ -16,13 +16,14 @@ namespace {
 
 TEST(SavedOptions, AreThoseOfTheMapsOrTheDefaultOnes) {
   AtlasContext context;
-  EXPECT_EQ(SavedOptions(context, "m.plb").mapping.line_map.min_keyframes,
+  const auto none = [](const RemovedSetting& removed) { ADD_FAILURE() << removed.message; };
+  EXPECT_EQ(SavedOptions(context, "m.plb", none).mapping.line_map.min_keyframes,
             SlamOptions{}.mapping.line_map.min_keyframes);
   context.options_yaml = "mapping: {line_map: {min_keyframes: 7}}";
-  EXPECT_EQ(SavedOptions(context, "m.plb").mapping.line_map.min_keyframes, 7);
+  EXPECT_EQ(SavedOptions(context, "m.plb", none).mapping.line_map.min_keyframes, 7);
   context.options_yaml = "mapping: {of_a_later_version: 7}";
   try {
-    SavedOptions(context, "m.plb");
+    SavedOptions(context, "m.plb", none);
     ADD_FAILURE();
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()).find("m.plb:1: unknown option 'mapping.of_a_later"), 0U);
@@ -51,6 +52,23 @@ TEST(SavedOptionsOrDefault, AreTheDefaultOnesWithARemarkWhereTheyAreNotKnown) {
   EXPECT_NE(remarks[1].find("; lines as by default"), std::string::npos);
 }
 
+// A map of 0.2.0 holds options that are constants now.
+TEST(SavedOptionsOrDefault, TellWhatWasRemovedSinceAndHadAnotherValue) {
+  std::vector<std::string> remarks;
+  AtlasContext context;
+  context.options_yaml =
+      "mapping:\n  ba: {rounds: 2, max_iterations: 20}\n  line_map: {min_keyframes: 7}\n";
+  const SlamOptions options =
+      SavedOptionsOrDefault(context, "m.plb", "lines as by default", [&](const std::string& text) {
+        remarks.push_back(text);
+      });
+  EXPECT_EQ(options.mapping.line_map.min_keyframes, 7);
+  EXPECT_EQ(options.mapping.ba.max_iterations, MappingOptions{}.ba.max_iterations);
+  EXPECT_EQ(remarks,
+            std::vector<std::string>{"m.plb:2: mapping.ba.max_iterations is no option any more: it "
+                                     "is fixed at 10 (MappingOptions::ba), found '20'"});
+}
+
 AtlasContext MeasuredWith(const std::string& options_yaml) {
   AtlasContext context;
   context.feature_format = kFeatureFormat;
@@ -69,6 +87,14 @@ TEST(FrontEndDifferences, SayWhatIsNotTheSame) {
   ++later.feature_format;
   EXPECT_EQ(FrontEndDifferences(before, later),
             std::vector<std::string>{"format of features: 1 in the map, 2 now"});
+}
+
+TEST(FrontEndDifferences, CountOptionsThatWereRemovedSince) {
+  const AtlasContext before = MeasuredWith("features: {orb: {sigma_px: 0.5}}");
+  EXPECT_EQ(FrontEndDifferences(before, MeasuredWith("")),
+            std::vector<std::string>{"features.orb.sigma_px: 0.5 in the map, 0.2 now"});
+  EXPECT_TRUE(FrontEndDifferences(before, before).empty());
+  EXPECT_TRUE(FrontEndDifferences(MeasuredWith("mapping: {ba: {rounds: 5}}"), before).size() == 1);
 }
 
 TEST(FrontEndDifferences, LeaveOutWhatChangesNoFeature) {
