@@ -20,7 +20,7 @@ struct LandmarkCreationOptions {
   // With fewer such points than this, the most certain others are made, too: a pose needs some.
   int min_depth_points = 100;
   // Largest deviation, relative to the depth, of the ends of lines made from one frame. With
-  // wider limits, lines alone give less accurate poses (docs/log/mapping.md).
+  // wider limits, lines alone give less accurate poses (lab/notes/mapping.md).
   double max_relative_line_depth_sigma = 0.107;
   // Number of keyframes, the closest ones, searched for a second view of points without landmark.
   int neighbours = 6;
