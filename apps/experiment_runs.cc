@@ -205,6 +205,13 @@ std::string SayRuns(std::size_t runs, std::size_t failed, const fs::path& out) {
                      (out / "table.html").string());
 }
 
+// Returns the exit code for these runs: 1, with a line on stderr, if none succeeded.
+int CheckSomeSucceeded(std::size_t runs, std::size_t failed, const fs::path& out) {
+  if (runs == 0 || failed < runs) return 0;
+  std::cerr << "plumbline: no run succeeded; " << (out / "table.md").string() << " says why\n";
+  return 1;
+}
+
 // Compares the figures with the limits, if any; they go into gate.md too.
 int CheckLimits(const Plan& plan, const std::vector<JobResult>& results, bool quiet) {
   const std::vector<GateLimit> limits = GateLimitsOf(plan.experiment.name);
@@ -304,10 +311,10 @@ int RunExperiment(const Experiment& experiment, const CommandLine& line) {
   const auto results = RunWithProgress({&plan}, line, 1, {});
   if (!results) return FirstStopSignal()->exit_code;
   WriteResults(plan, results->front());
-  if (!quiet) {
-    std::cout << SayRuns(results->front().size(), CountFailed(results->front()), plan.out);
-  }
-  return CheckLimits(plan, results->front(), quiet);
+  const std::size_t runs = results->front().size(), failed = CountFailed(results->front());
+  if (!quiet) std::cout << SayRuns(runs, failed, plan.out);
+  return std::max(CheckLimits(plan, results->front(), quiet),
+                  CheckSomeSucceeded(runs, failed, plan.out));
 }
 
 int RunGroup(const ExperimentGroup& group, const CommandLine& line) {
@@ -338,7 +345,7 @@ int RunGroup(const ExperimentGroup& group, const CommandLine& line) {
   if (!results) return FirstStopSignal()->exit_code;
   WriteGroupReport(ReadOut(line), group.name, group.help, planned.parts);
   if (!quiet) std::cout << SayRuns(runs, failed, ReadOut(line));
-  return 0;
+  return CheckSomeSucceeded(runs, failed, ReadOut(line));
 }
 
 int RunComputed(const ComputedExperiment& experiment, const CommandLine& line) {

@@ -108,6 +108,10 @@ TEST(ExperimentCommand, ABrokenSequenceIsAFailureWithAReason) {
       EXPECT_EQ(row["value"], 1);
     }
   }
+  // Where none succeeds, scripts are told.
+  const Outcome none = RunExperiment(folder, "--runs 1 --only broken/points");
+  EXPECT_EQ(none.code, 1);
+  EXPECT_THAT(none.err, HasSubstr("no run succeeded"));
 }
 
 TEST(ExperimentCommand, ASignalEndsItAndTheNextCallGoesOn) {
