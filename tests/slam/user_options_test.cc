@@ -53,7 +53,7 @@ TEST(ListOptions, HasThoseOfThePapersUnderAHeadingAndIsAFileOfAllOptions) {
   ASSERT_NE(heading, std::string::npos);
   EXPECT_LT(list.find("  lag: 3 "), heading);
   EXPECT_GT(list.find("\nlines.rotation_gate: true "), heading);
-  EXPECT_THAT(list, testing::Not(testing::HasSubstr("\nlines:")));
+  EXPECT_THAT(list, ::testing::Not(::testing::HasSubstr("\nlines:")));
   SlamOptions again;
   OptionTable read(again);
   read.LoadText(list, "list");
