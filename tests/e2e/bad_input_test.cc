@@ -226,12 +226,11 @@ TEST(BadInput, OptionsOfEarlierVersions) {
   ExpectRefused(
       {{"what is fixed now, set",
         [](const ScratchFolder&) {},
-        "--set tracking.pose.rounds=4: tracking.pose.rounds is no option any more: it is fixed at "
-        "4",
-        " --set tracking.pose.rounds=4"},
+        "--set mapping.ba.rounds=2: mapping.ba.rounds is no option any more: it is fixed at 2",
+        " --set mapping.ba.rounds=2"},
        {"a file with another value",
-        Put("my.yaml", "mapping:\n  fusion: {max_chi2: 5.99}\n  ba:\n    gate_scale: 2\n"),
-        "my.yaml:4: mapping.ba.gate_scale is no option any more: it is fixed at 1",
+        Put("my.yaml", "mapping:\n  creation: {neighbours: 6}\n  ba:\n    rounds: 3\n"),
+        "my.yaml:4: mapping.ba.rounds is no option any more: it is fixed at 2",
         " --config FOLDER/my.yaml"}});
 }
 
