@@ -59,6 +59,7 @@ void VisitFields(Visitor&& visit, LineDetectionOptions& o) {
   visit("merge", o.merge, "join collinear pieces");
   visit("refine", o.refine, "refine segments below the pixel");
 }
+// Returns the options of 0.2.0 that are constants now, with their values.
 std::vector<RemovedOption> RemovedOptions(std::type_identity<LineDetectionOptions>);
 
 }  // namespace plumbline

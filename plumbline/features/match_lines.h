@@ -89,6 +89,7 @@ void VisitFields(Visitor&& visit, StereoLineOptions& o) {
         Range{0, 0.01});
   visit("min_depth_m", o.min_depth_m, "nearest depth searched [m]", Range{0.01, 100});
 }
+// Returns the options of 0.2.0 that are constants now, with their values.
 std::vector<RemovedOption> RemovedOptions(std::type_identity<StereoLineOptions>);
 
 }  // namespace plumbline

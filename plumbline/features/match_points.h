@@ -82,6 +82,7 @@ void VisitFields(Visitor&& visit, StereoPointOptions& o) {
         "of the image",
         Range{0, 0.01});
 }
+// Returns the options of 0.2.0 that are constants now, with their values.
 inline std::vector<RemovedOption> RemovedOptions(std::type_identity<StereoPointOptions>) {
   return {FixedAt("window_px", StereoPointOptions{}.window_px, "StereoPointOptions::window_px")};
 }

@@ -80,6 +80,7 @@ void VisitFields(Visitor&& visit, OrbOptions& o) {
       "the image",
       Range{0, 0.01});
 }
+// Returns the options of 0.2.0 that are constants now, with their values.
 std::vector<RemovedOption> RemovedOptions(std::type_identity<OrbOptions>);
 
 }  // namespace plumbline

@@ -124,6 +124,7 @@ void VisitFields(Visitor&& visit, MappingOptions& o) {
   visit("line_map", o.line_map, "which lines of the finished map are given out");
 }
 
+// Returns the options of 0.2.0 that are constants now, with their values.
 inline std::vector<RemovedOption> RemovedOptions(std::type_identity<MappingOptions>) {
   const MappingOptions o;
   return {

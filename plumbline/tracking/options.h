@@ -58,6 +58,7 @@ void VisitFields(Visitor&& visit, TrackingOptions& o) {
   visit("keyframes", o.keyframes, "when a frame becomes a keyframe");
 }
 
+// Returns the options of 0.2.0 that are constants now, with their values.
 inline std::vector<RemovedOption> RemovedOptions(std::type_identity<TrackingOptions>) {
   const TrackingOptions o;
   return {FixedAt("max_pose_sigma", o.max_pose_sigma, "TrackingOptions::max_pose_sigma"),
