@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/mapper.h"
 
-#include "plumbline/base/error.h"
-
 #include "tests/support/synthetic_run.h"
 #include <memory>
 
@@ -48,13 +46,6 @@ TEST_F(MapperOfAWorld, TakesKeyFramesInAndGivesSnapshotsAroundThem) {
   mapper_.atlas().active().CheckInvariants();
   mapper_.Finish({});
   mapper_.atlas().active().CheckInvariants();
-}
-
-TEST_F(MapperOfAWorld, AMapWhoseFirstKeyFrameFailsNeverWas) {
-  Process({SensedKeyFrame(world_, 0, -1), 0, true});
-  EXPECT_THROW(Process({SensedKeyFrame(world_, 0, -1), 1, true}), std::exception);
-  EXPECT_EQ(mapper_.atlas().maps().size(), 1U);
-  EXPECT_EQ(mapper_.atlas().active().keyframes().size(), 1U);
 }
 
 TEST_F(MapperOfAWorld, ReadersSeeTheMapsAndChangeNoSnapshot) {
