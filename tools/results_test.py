@@ -116,8 +116,8 @@ class Results(unittest.TestCase):
         self.assertEqual([f["sequence"] for f in kept["figures"]], ["all"])
 
     def test_large_plots_are_refused(self):
-        with self.assertRaisesRegex(SystemExit, "expected at most 700000 bytes, found 400001"):
-            self.record(self.group(plot="x" * 400_001))
+        with self.assertRaisesRegex(SystemExit, "expected at most 700000 bytes, found 700001"):
+            self.record(self.group(plot="x" * 700_001))
 
     def test_a_metric_that_is_not_there_is_refused(self):
         self.record(self.group())
