@@ -48,14 +48,14 @@ struct Evaluation {
 // A small table for people, with units.
 std::string EvaluationTable(const Evaluation& evaluation);
 
-// The same for programs. Keys: alignment, aligned_by, association, time_offset_s, window,
+// Returns an evaluation as JSON. Keys: alignment, aligned_by, association, time_offset_s, window,
 // frames_delivered, frames_with_pose, frames_compared, coverage, scale, scale_drift, degenerate,
 // ate_m, rpe_m_per_s, roe_deg_per_s, line_map. The three errors are {count, rmse, mean, median,
 // max, std, p75, p95}, or null if there is nothing to compare; line_map is null without lines.
 // Shares are in [0, 1].
 std::string EvaluationJson(const Evaluation& evaluation);
 
-// The same for several estimates: for each error one table with a row for each of them; and
+// Tables of several estimates: one for each error, with a row for each estimate. The JSON is
 // {"estimates": [...]}, each in the form of EvaluationJson after "estimate" and "name".
 std::string EvaluationsTable(const std::vector<Evaluation>& evaluations);
 std::string EvaluationsJson(const std::vector<Evaluation>& evaluations);

@@ -20,7 +20,7 @@ class ProgressLine {
   // May be called at any rate; the end, done == total, is always shown.
   void Show(std::size_t done, std::size_t total, const std::string& text);
 
-  // The same with an unknown total.
+  // Shows progress whose total is unknown.
   void ShowOpen(const std::string& text);
   // To be called after the last ShowOpen.
   void End() const;
@@ -36,7 +36,7 @@ class ProgressLine {
   Clock::time_point shown_ = Clock::now();
 };
 
-// The same for a job of many equal parts, with the time left. Not thread-safe.
+// Reports progress of a job of many equal parts, with the time left. Not thread-safe.
 class Countdown {
  public:
   // `what` are the parts, in the plural; total is nullopt if unknown.

@@ -85,7 +85,7 @@ struct Setup {
   bool quiet = false;
 };
 
-// Of the options of a preset those that a start depends on.
+// Returns those options of a preset that a start depends on.
 StartOptions OptionsOfPreset(const std::string& name) {
   SlamOptions options;
   OptionTable table(options);

@@ -44,7 +44,7 @@ STAGES = [
     (1, FRAME, "pose", r"plumbline::PoseEstimator::Estimate"),
     (0, FRAME, "start of a monocular map", r"plumbline::MonocularInitialization::Offer"),
     (0, KEYFRAME, "mapping", r"plumbline::LocalMapper::Add"),
-    (1, KEYFRAME, "taking in", r"plumbline::LocalMapper::TakeIn"),
+    (1, KEYFRAME, "taking in", r"plumbline::LocalMapper::InsertKeyFrame"),
     (1, KEYFRAME, "new landmarks", r"plumbline::LocalMapper::CreateLandmarks"),
     (1, KEYFRAME, "fusion", r"plumbline::LocalMapper::Fuse"),
     (1, KEYFRAME, "adjustment", r"plumbline::LocalMapper::Adjust"),

@@ -30,7 +30,7 @@ std::unique_ptr<ceres::CostFunction> MakeLineCost(const RectifiedCamera& camera,
                                                   CeresDerivatives derivatives,
                                                   LineParametrization line);
 
-// The same for LineResidualKind::kProjectedEnds, by automatic derivatives. `interval`: the
+// Cost of a line for LineResidualKind::kProjectedEnds, by automatic derivatives. `interval`: the
 // parameters of the ends along the line; not used with end points.
 std::unique_ptr<ceres::CostFunction> MakeProjectedEndsCost(const RectifiedCamera& camera,
                                                            const LineMeasurement& measurement,

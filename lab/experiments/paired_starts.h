@@ -20,13 +20,13 @@ struct PairedStarts {
   std::size_t variant = 0;
   int starts = 0;    // tried by both
   int possible = 0;  // of these, those not known to be impossible (IsPossible)
-  // Of the variant, among the possible ones; wrong ones among all.
+  // Outcomes of the variant among the possible starts; wrong ones among all.
   int right = 0, late = 0, waiting = 0, wrong = 0;
   // Right ones not right for the reference, and the reverse.
   int right_alone = 0, reference_alone = 0;
-  // Of the exact sign test: the probability that, by chance alone, those two differ at least as
-  // much. The starts of a sequence count as independent, which neighbours are not quite: a small
-  // value of one sequence alone is not conclusive.
+  // P-value of the exact sign test: the probability that, by chance alone, those two differ at
+  // least as much. The starts of a sequence count as independent, which neighbours are not quite: a
+  // small value of one sequence alone is not conclusive.
   double p = 1;
   // Difference of the shares of right starts to the reference, percentage points; over all the mean
   // over places (PlaceOf), with its 95 % interval by Student's t.

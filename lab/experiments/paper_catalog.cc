@@ -20,7 +20,7 @@ SequenceChoice Tum(const std::string& folder, const std::string& paper) {
   return {"tum/rgbd_dataset_" + folder, {}, "", {}, paper, kTum};
 }
 
-// Of the first paper's tables: the sequences of both, those of the second without sitting_static.
+// Sequences of the first paper's tables: those of both, those of the second without sitting_static.
 std::vector<SequenceChoice> RipplSequences(bool with_static) {
   std::vector<SequenceChoice> choices = {
       Tum("freiburg1_xyz", "fr1_xyz"),
@@ -314,7 +314,8 @@ Experiment RipplTimingSystem() {
   return e;
 }
 
-// Of the second paper: against the last frame, with the residuals and weights of its program.
+// Systems of the second paper: against the last frame, with the residuals and weights of its
+// program.
 std::vector<Variant> CuttingSystems() {
   const char *no_points = "features.points=false", *whole = "cutting.method=none";
   return {{"L", {no_points, whole}, kCutting},
