@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Renders each world of `plumbline synth` coarsely and prints the table of docs/worlds.md.
+"""Renders each world of `plumbline synth` coarsely and prints the table of lab/notes/worlds.md.
 
     tools/describe_worlds.py [--program build/release/plumbline] [--only NAME] [--frames 40]
                              [--pictures FOLDER]
