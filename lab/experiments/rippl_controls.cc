@@ -10,7 +10,7 @@ namespace plumbline {
 namespace {
 
 // A part of the method left out of the variant that it is compared with. One option differs;
-// lab/notes/starts.md says what else changes with it.
+// lab/notes/rippl-tables.md says what else changes with it.
 struct Control {
   std::string name;
   std::vector<std::string> settings;
