@@ -15,6 +15,7 @@ int ConfigCommand(std::span<const std::string> arguments);
 int EvaluateCommand(std::span<const std::string> arguments);
 int ExperimentCommand(std::span<const std::string> arguments);
 int InfoCommand(std::span<const std::string> arguments);
+int LinesCommand(std::span<const std::string> arguments);
 int MapCommand(std::span<const std::string> arguments);
 int RunCommand(std::span<const std::string> arguments);
 int StartsCommand(std::span<const std::string> arguments);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
-#include "plumbline/eval/line_map_figure.h"
 #include "plumbline/eval/trajectory_figure.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/text_rows.h"
@@ -13,7 +12,6 @@
 #include "apps/evaluate_outputs.h"
 #include "apps/evaluate_report.h"
 #include "apps/figure_file.h"
-#include "apps/line_map_input.h"
 #include "apps/reference_trajectory.h"
 #include <cmath>
 #include <cstdint>
@@ -30,12 +28,14 @@
 namespace plumbline {
 namespace {
 
+constexpr const char* kLinesInstead =
+    "plumbline lines SEQUENCE RUN compares lines, where the laboratory is built";
+
 CommandSyntax EvaluateSyntax() {
   return {
       "evaluate",
       "Compares estimated trajectories, or the folders of runs, with ground truth: a trajectory in "
-      "TUM\nform, EuRoC csv or KITTI poses, or the folder of a data set that has it. Where that "
-      "folder has\nlines.csv and the run lines.obj, the maps of lines are compared, too.",
+      "TUM\nform, EuRoC csv or KITTI poses, or the folder of a data set that has it.",
       {"REFERENCE", "ESTIMATE", "[ESTIMATE ...]"},
       {{"--align",
         "none|se3|sim3",
@@ -61,15 +61,12 @@ CommandSyntax EvaluateSyntax() {
         "draw path, errors, and x, y, z, roll, pitch, yaw over time, .svg or .png"},
        {"--save-aligned",
         "FILE|DIR",
-        "write the estimates, aligned, in TUM form: one into FILE, several into DIR"},
-       {"--true-lines", "FILE", "lines of the true world (lines.csv of REFERENCE)"},
-       {"--lines", "FILE", "estimated lines, .obj or .plb (lines.obj of ESTIMATE)"},
-       {"--surfaces", "FILE", "surfaces of the true world (surfaces.csv of REFERENCE)"},
-       {"--align-lines",
-        "trajectory|poses",
-        "lines move as the trajectory, or are then turned to fit poses (poses; with --align none: "
-        "trajectory)"},
-       {"--plot-lines", "FILE", "draw true and estimated lines, .svg or .png"}}};
+        "write the estimates, aligned, in TUM form: one into FILE, several into DIR"}},
+      {{"--true-lines", kLinesInstead},
+       {"--lines", kLinesInstead},
+       {"--surfaces", kLinesInstead},
+       {"--align-lines", kLinesInstead},
+       {"--plot-lines", kLinesInstead}}};
 }
 
 // "3s" or "1f".
@@ -163,46 +160,6 @@ std::optional<std::size_t> FramesDelivered(const std::filesystem::path& estimate
   return frames && *frames >= estimate.size() ? frames : std::nullopt;
 }
 
-LineMapFiles FilesOfLines(const CommandLine& line, const std::string& estimate) {
-  LineMapFiles files;
-  files.reference = line.Positional(0);
-  files.estimate = estimate;
-  if (const auto path = line.Value("--true-lines")) files.true_lines = *path;
-  if (const auto path = line.Value("--lines")) files.lines = *path;
-  if (const auto path = line.Value("--surfaces")) files.surfaces = *path;
-  return files;
-}
-
-// Compares the lines, if any, in the world of the reference. Returns a drawing if requested.
-std::optional<Figure> EvaluateLines(const CommandLine& line, Evaluation& evaluation) {
-  const LineMapFiles files = FilesOfLines(line, evaluation.estimate);
-  std::optional<LineMapInput> input = LoadLineMaps(files);
-  const bool plot = line.Has("--plot-lines");
-  if (const auto text = line.Value("--align-lines")) {
-    evaluation.line_alignment = ParseChoice<LineAlignment>("--align-lines", *text);
-  } else if (evaluation.options.alignment == TrajectoryAlignment::kNone ||
-             evaluation.options.known_alignment) {
-    evaluation.line_alignment = LineAlignment::kTrajectory;  // nothing more is to be moved
-  }
-  if (!input) {
-    if (!plot) return std::nullopt;
-    throw InputError(
-        "--plot-lines: expected lines.csv in REFERENCE and lines.obj in ESTIMATE, or "
-        "--true-lines and --lines");
-  }
-  if (line.Has("--mirror-y")) MirrorWorldY(*input);
-  Similarity3 reference_from_estimate = evaluation.error.reference_from_estimate;
-  if (evaluation.line_alignment == LineAlignment::kPoses) {
-    reference_from_estimate = AlignPoses(evaluation.error.poses) * reference_from_estimate;
-  }
-  evaluation.line_options.viewers = LoadLineViewers(files, evaluation.error.poses);
-  input->estimate = Transformed(reference_from_estimate, std::move(input->estimate));
-  evaluation.lines =
-      CompareLineMaps(input->truth, input->estimate, input->surfaces, evaluation.line_options);
-  if (!plot) return std::nullopt;
-  return LineMapFigure(input->truth, input->estimate, *evaluation.lines, evaluation.error.poses);
-}
-
 // Existing input files of the command.
 std::vector<std::filesystem::path> FilesRead(const CommandLine& line,
                                              const ReferenceTrajectory& reference,
@@ -214,19 +171,9 @@ std::vector<std::filesystem::path> FilesRead(const CommandLine& line,
     folders.push_back(estimate.parent_path());
   }
   for (const std::filesystem::path& folder : folders) {
-    for (const char* name : {"lines.csv",
-                             "surfaces.csv",
-                             "lines.obj",
-                             "keyframes.txt",
-                             "frames.csv",
-                             "summary.json",
-                             "rgb.txt",
-                             "times.txt"}) {
+    for (const char* name : {"frames.csv", "summary.json", "rgb.txt", "times.txt"}) {
       files.push_back(folder / name);
     }
-  }
-  for (const char* option : {"--true-lines", "--lines", "--surfaces"}) {
-    if (const auto path = line.Value(option)) files.emplace_back(*path);
   }
   return files;
 }
@@ -283,7 +230,6 @@ std::optional<Evaluation> EvaluateOther(const CommandLine& line,
 struct EvaluatedEstimate {
   Evaluation evaluation;
   Trajectory poses;  // as compared, not aligned
-  std::optional<Figure> lines;
 };
 
 EvaluatedEstimate EvaluateOne(const CommandLine& line,
@@ -310,7 +256,6 @@ EvaluatedEstimate EvaluateOne(const CommandLine& line,
   evaluation.unit_is_free =
       IsMonocularRun(file) && !other && evaluation.options.alignment != TrajectoryAlignment::kSim3;
   evaluation.frames_delivered = FramesDelivered(file, reference, one.poses);
-  one.lines = EvaluateLines(line, evaluation);
   return one;
 }
 
@@ -328,10 +273,6 @@ std::vector<FileContents> FilesToWrite(const EvaluateOutputs& outputs,
     const Figure figure =
         errors.size() == 1 ? TrajectoryFigure(*errors.front().error) : TrajectoryFigure(errors);
     files.push_back({*outputs.plot, FigureBytes(*outputs.plot, figure)});
-  }
-  if (outputs.plot_lines && estimates.front().lines) {
-    files.push_back(
-        {*outputs.plot_lines, FigureBytes(*outputs.plot_lines, *estimates.front().lines)});
   }
   for (std::size_t i = 0; i < outputs.aligned.size(); ++i) {
     Trajectory aligned = estimates[i].poses;
@@ -353,11 +294,6 @@ int EvaluateCommand(std::span<const std::string> arguments) {
     return 0;
   }
   const std::vector<std::string> paths = line.PositionalsFrom(1);
-  for (const char* option : {"--lines", "--plot-lines"}) {
-    if (paths.size() == 1 || !line.Has(option)) continue;
-    throw InputError(std::string(option) + ": expected one estimate, found " +
-                     std::to_string(paths.size()));
-  }
   const std::vector<std::string> names = ShortNames(paths);
   const EvaluateOutputs outputs = ReadOutputs(line, names);
   const ReferenceTrajectory reference = LoadReferenceFor(line, line.Positional(0));

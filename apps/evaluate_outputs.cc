@@ -47,7 +47,6 @@ std::vector<NamedOutput> Named(const EvaluateOutputs& outputs) {
   std::vector<NamedOutput> named;
   if (outputs.json) named.emplace_back("--json", *outputs.json);
   if (outputs.plot) named.emplace_back("--plot", *outputs.plot);
-  if (outputs.plot_lines) named.emplace_back("--plot-lines", *outputs.plot_lines);
   for (const fs::path& file : outputs.aligned) named.emplace_back("--save-aligned", file);
   return named;
 }
@@ -135,9 +134,7 @@ EvaluateOutputs ReadOutputs(const CommandLine& line, const std::vector<std::stri
     if (!outputs.json_to_stdout) outputs.json = *path;
   }
   if (const auto path = line.Value("--plot")) outputs.plot = *path;
-  if (const auto path = line.Value("--plot-lines")) outputs.plot_lines = *path;
   if (outputs.plot) CheckFigureName(*outputs.plot);
-  if (outputs.plot_lines) CheckFigureName(*outputs.plot_lines);
   if (const auto path = line.Value("--save-aligned")) ReadAligned(*path, names, outputs);
   return outputs;
 }

@@ -17,10 +17,10 @@ namespace plumbline {
 // the path joined by "_", without ".txt". The second of two equal paths gets "-2" and so on.
 std::vector<std::string> ShortNames(const std::vector<std::string>& paths);
 
-// Outputs of `evaluate`, by its options.
+// Outputs of `evaluate` and `lines`, by their options.
 struct EvaluateOutputs {
   bool json_to_stdout = false;  // --json -
-  std::optional<std::filesystem::path> json, plot, plot_lines;
+  std::optional<std::filesystem::path> json, plot;
   std::vector<std::filesystem::path> aligned;  // one for each estimate; empty: none
   // The folder of the aligned trajectories, if it has to be made.
   std::optional<std::filesystem::path> new_folder;

@@ -2,30 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/eval/line_map_error.h"
 #include "plumbline/eval/trajectory_error.h"
 
 #include "apps/reference_trajectory.h"
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace plumbline {
-
-// Alignment of the estimated lines.
-enum class LineAlignment {
-  kTrajectory,  // by the alignment of the trajectory
-  kPoses,       // the same, then rotated and moved so that the poses agree, AlignPoses
-};
-constexpr auto EnumNames(std::type_identity<LineAlignment>) {
-  return std::array{std::pair{LineAlignment::kTrajectory, "trajectory"},
-                    std::pair{LineAlignment::kPoses, "poses"}};
-}
 
 // A comparison and its inputs.
 struct Evaluation {
@@ -40,9 +26,6 @@ struct Evaluation {
   TrajectoryError error;
   // Images given to the run; nullopt if unknown.
   std::optional<std::size_t> frames_delivered;
-  LineAlignment line_alignment = LineAlignment::kPoses;
-  LineMapErrorOptions line_options;
-  std::optional<LineMapError> lines;  // nullopt without compared lines
 };
 
 // A small table for people, with units.
@@ -50,9 +33,8 @@ std::string EvaluationTable(const Evaluation& evaluation);
 
 // Returns an evaluation as JSON. Keys: alignment, aligned_by, association, time_offset_s, window,
 // frames_delivered, frames_with_pose, frames_compared, coverage, scale, scale_drift, degenerate,
-// ate_m, rpe_m_per_s, roe_deg_per_s, line_map. The three errors are {count, rmse, mean, median,
-// max, std, p75, p95}, or null if there is nothing to compare; line_map is null without lines.
-// Shares are in [0, 1].
+// ate_m, rpe_m_per_s, roe_deg_per_s. The three errors are {count, rmse, mean, median, max, std,
+// p75, p95}, or null if there is nothing to compare. Shares are in [0, 1].
 std::string EvaluationJson(const Evaluation& evaluation);
 
 // Tables of several estimates: one for each error, with a row for each estimate. The JSON is

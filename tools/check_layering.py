@@ -39,6 +39,7 @@ LAYERS = {
     "report": ["base", "geometry", "image", "features", "map", "initialization", "io", "slam", "eval"],
     "viewer": ["base", "geometry", "image", "features", "map", "slam", "recording", "foxglove"],
     "worlds": ["base", "geometry", "image", "io"],
+    "line_maps": ["base", "geometry", "io", "eval", "report", "worlds"],
     "line_rivals": ["base", "geometry", "map", "matching", "optimization", "tracking"],
     "ceres_reference": ["base", "geometry", "optimization", "matching", "line_rivals"],
     "starts": ["base", "geometry", "image", "features", "map", "matching", "initialization", "io",
@@ -46,12 +47,12 @@ LAYERS = {
     "cutting_testbed": ["base", "geometry", "optimization", "line_cutting"],
     "experiments": ["base", "geometry", "image", "features", "map", "matching", "initialization",
                     "optimization", "tracking", "io", "slam", "starts", "worlds", "eval", "report",
-                    "line_cutting", "cutting_testbed"],
+                    "line_maps", "line_cutting", "cutting_testbed"],
 }
 # The modules that are not in plumbline/, and where they are. The product includes none of them, and the
 # worlds include nothing of the laboratory.
 RENDERER = "worlds"
-LABORATORY = {"line_rivals", "ceres_reference", "starts", "cutting_testbed", "experiments"}
+LABORATORY = {"line_maps", "line_rivals", "ceres_reference", "starts", "cutting_testbed", "experiments"}
 # third-party prefix -> the files that may include it (regular expression; those of the product without
 # plumbline/). Headers are left out but for three, so that nobody needs more than Eigen to include the library.
 THIRD_PARTY = {
@@ -65,7 +66,7 @@ THIRD_PARTY = {
     "gmock/": None,
     "gtest/": None,
     "nlopt": r"lab/cutting_testbed/nlopt_\w+\.cc",
-    "nlohmann/": r"(io|eval|report|foxglove|viewer|lab/experiments)/\w+\.cc",
+    "nlohmann/": r"(io|eval|report|foxglove|viewer|lab/experiments|lab/line_maps)/\w+\.cc",
     "opencv2/": r"image/(opencv_bridge|opencv_modules|image_codecs)\.h|"
                 r"(image|features|initialization|io|live|report|viewer)/\w+\.cc",
     "yaml-cpp/": r"((base|io)/\w+|lab/experiments/(printed_figures|gate))\.cc",

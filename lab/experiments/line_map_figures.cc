@@ -2,19 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/line_map_figures.h"
 
-#include "lab/experiments/run_trajectory.h"
+#include "lab/line_maps/line_map_error.h"
+#include "lab/line_maps/run_line_map.h"
 #include "plumbline/base/error.h"
-#include "plumbline/eval/line_map_error.h"
 #include "plumbline/eval/trajectory_error.h"
-#include "plumbline/io/dataset.h"
-#include "plumbline/io/line_map_file.h"
-#include "plumbline/io/open_dataset.h"
-#include "plumbline/io/trajectory_io.h"
-#include "plumbline/io/true_world.h"
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -31,32 +25,12 @@ namespace fs = std::filesystem;
 
 constexpr double kTolerance = 0.05;  // metres
 
-// nullopt if the run has no list of its keyframes.
-std::optional<LineViewers> KeyFrameViewers(const Dataset& dataset,
-                                           const fs::path& run,
-                                           const TrajectoryError& trajectory) {
-  std::error_code error;
-  if (!fs::exists(run / "keyframes.txt", error)) return std::nullopt;
-  std::vector<std::int64_t> stamps;
-  for (const StampedPose& pose : ReadTrajectory(run / "keyframes.txt").poses) {
-    stamps.push_back(pose.stamp_ns);
-  }
-  return ViewersOf(dataset.calibration().left, dataset.info().stamps_ns, stamps, trajectory.poses);
-}
-
-// Compares lines of a run, in the true world, with those of the sequence, at kTolerance.
-LineMapErrorAt CompareLinesOfRun(const Dataset& dataset,
-                                 const fs::path& run,
-                                 const TrajectoryError& trajectory,
-                                 std::span<const TrueLine> truth,
-                                 std::span<const Segment3> lines) {
-  const fs::path& sequence = dataset.info().path;
-  std::vector<Parallelogram> surfaces;
-  if (fs::exists(sequence / "surfaces.csv")) surfaces = ReadSurfaces(sequence / "surfaces.csv");
+// Compares lines of a run with those of its sequence, at kTolerance.
+LineMapErrorAt CompareLinesOf(const RunLineMap& run) {
   LineMapErrorOptions options;
   options.tolerances = {kTolerance};
-  options.viewers = KeyFrameViewers(dataset, run, trajectory);
-  return CompareLineMaps(truth, lines, surfaces, options).at[0];
+  options.viewers = run.viewers;
+  return CompareLineMaps(run.truth, run.lines, run.surfaces, options).at[0];
 }
 
 // Returns true if true lines and a non-empty trajectory exist.
@@ -113,31 +87,12 @@ void SayUnreadable(const Names& names, RunFigures& figures) {
 
 }  // namespace
 
-Similarity3 TrueWorldFromRun(const TrajectoryError& trajectory) {
-  return AlignPoses(trajectory.poses) * trajectory.reference_from_estimate;
-}
-
-std::vector<Segment3> ReadLinesInTrueWorld(const fs::path& file,
-                                           const TrajectoryError& trajectory) {
-  const Similarity3 true_from_run = TrueWorldFromRun(trajectory);
-  std::vector<Segment3> segments = ReadLineMap(file);
-  for (Segment3& segment : segments) {
-    segment = {true_from_run * segment.start, true_from_run * segment.end};
-  }
-  return segments;
-}
-
 void AddLineMapFigures(const fs::path& sequence, const fs::path& run, RunFigures& figures) {
   if (!CanCompareLines(sequence, figures)) return;
   try {
-    const auto trajectory = CompareRunWithTruth(sequence, run);
-    if (!trajectory) return;
-    const LineMapErrorAt at =
-        CompareLinesOfRun(*OpenDataset(sequence),
-                          run,
-                          *trajectory,
-                          ReadTrueLines(sequence / "lines.csv"),
-                          ReadLinesInTrueWorld(run / "lines.obj", *trajectory));
+    const auto map = ReadRunLineMap(sequence, run, run / "lines.obj");
+    if (!map) return;
+    const LineMapErrorAt at = CompareLinesOf(*map);
     AddLineFigure("line_recall", kPercent, at.recall, figures);
     AddLineFigure("line_precision", kPercent, at.precision, figures);
     AddLineFigure("line_angle", kDegrees, at.median_angle, figures);
@@ -157,16 +112,13 @@ bool AsksForMapLines(std::span<const std::string> metrics) {
 void AddMapLineFigures(const fs::path& sequence, const fs::path& run, RunFigures& figures) {
   if (!CanCompareLines(sequence, figures)) return;
   try {
-    const auto trajectory = CompareRunWithTruth(sequence, run);
-    if (!trajectory) return;
-    const std::vector<TrueLine> truth = ReadTrueLines(sequence / "lines.csv");
-    const std::vector<Segment3> lines = ReadLinesInTrueWorld(run / "map.plb", *trajectory);
-    const LineMapErrorAt at =
-        CompareLinesOfRun(*OpenDataset(sequence), run, *trajectory, truth, lines);
+    const auto map = ReadRunLineMap(sequence, run, run / "map.plb");
+    if (!map) return;
+    const LineMapErrorAt at = CompareLinesOf(*map);
     AddLineFigure("map_line_recall", kPercent, at.recall, figures);
     AddLineFigure("map_line_precision", kPercent, at.precision, figures);
     AddLineFigure("map_line_angle", kDegrees, at.median_angle, figures);
-    AddLineFigure("map_line_error", kMillimetres, MedianEndError(truth, lines), figures);
+    AddLineFigure("map_line_error", kMillimetres, MedianEndError(map->truth, map->lines), figures);
   } catch (const InputError&) {
     SayUnreadable(kMapLineMetrics, figures);
   }

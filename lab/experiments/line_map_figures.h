@@ -3,9 +3,6 @@
 #pragma once
 
 #include "lab/experiments/metrics.h"
-#include "plumbline/eval/trajectory_error.h"
-#include "plumbline/geometry/segment.h"
-#include "plumbline/geometry/sim3.h"
 
 #include <filesystem>
 #include <span>
@@ -30,15 +27,5 @@ void AddMapLineFigures(const std::filesystem::path& sequence,
 
 // Returns true if one of these metrics is one of AddMapLineFigures.
 bool AsksForMapLines(std::span<const std::string> metrics);
-
-// Returns the alignment of the map of a run to the world of the ground truth: the alignment of its
-// trajectory (with one camera a similarity, since the scale of its map is arbitrary), and the
-// rotation for which poses agree best (AlignPoses).
-Similarity3 TrueWorldFromRun(const TrajectoryError& trajectory);
-
-// Returns the lines of a file of a run (ReadLineMap) in the world of the ground truth. Throws
-// InputError if they cannot be read.
-std::vector<Segment3> ReadLinesInTrueWorld(const std::filesystem::path& file,
-                                           const TrajectoryError& trajectory);
 
 }  // namespace plumbline

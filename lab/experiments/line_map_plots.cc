@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/line_map_plots.h"
 
-#include "lab/experiments/line_map_figures.h"
-#include "lab/experiments/run_trajectory.h"
+#include "lab/line_maps/line_map_error.h"
+#include "lab/line_maps/run_line_map.h"
+#include "lab/line_maps/run_trajectory.h"
 #include "plumbline/base/base64.h"
 #include "plumbline/base/error.h"
 #include "plumbline/eval/figure_panel.h"
-#include "plumbline/eval/line_map_error.h"
 #include "plumbline/io/keyframe_images.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/open_dataset.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/pair_figures.h"
 
-#include "lab/experiments/run_trajectory.h"
+#include "lab/line_maps/run_trajectory.h"
 #include "plumbline/base/error.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include "lab/experiments/curve_plot.h"
 #include "lab/experiments/line_map_plots.h"
-#include "lab/experiments/run_trajectory.h"
+#include "lab/line_maps/run_trajectory.h"
 #include "plumbline/base/error.h"
 #include "plumbline/eval/figure_panel.h"
 #include "plumbline/io/map_io.h"

@@ -105,7 +105,6 @@ TEST(EvaluateSeveral, StandInOneTable) {
   EXPECT_EQ(ate["p75"], 0);
   EXPECT_NEAR(ate["p95"], 0.4, 1e-9);
   EXPECT_EQ(estimates[1]["alignment"], "none");
-  EXPECT_TRUE(estimates[1]["line_map"].is_null());
   // JSON of several takes the place of that of one, and the other way round.
   EXPECT_THAT(Printed({sequence.truth, good, "--json", out}), HasSubstr("ATE [m]"));
   EXPECT_THAT(Printed({sequence.truth, good, bad, "--json", out}), HasSubstr("ATE [m]"));
@@ -118,8 +117,6 @@ TEST(EvaluateSeveral, OneThatCannotBeComparedIsNamedAndNothingIsWritten) {
   EXPECT_THAT(Printed({sequence.truth, good, late, "--json", sequence.At("out.json")}),
               StartsWith("error: " + late + ": no pose of the estimate has a reference pose"));
   EXPECT_FALSE(sequence.Has("out.json"));
-  EXPECT_THAT(Printed({sequence.truth, good, late, "--plot-lines", sequence.At("a.svg")}),
-              HasSubstr("error: --plot-lines: expected one estimate, found 2"));
 }
 
 TEST(EvaluateSeveral, ShortNamesTellThemApart) {

@@ -1,19 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
-#include "plumbline/io/map_io.h"
-#include "plumbline/io/ply.h"
-#include "plumbline/io/true_world.h"
 #include "plumbline/report/run_manifest.h"
 
 #include "apps/commands.h"
 #include "apps/evaluate_report.h"
 #include "apps/figure_file.h"
-#include "apps/line_map_input.h"
 #include "apps/reference_trajectory.h"
 #include "tests/io/scratch_folder.h"
 #include "tests/support/data_folder.h"
-#include "tests/support/true_map.h"
 #include <string>
 #include <utility>
 #include <vector>
@@ -263,18 +258,14 @@ TEST(Evaluate, WritesOverNothingOfTheRun) {
 TEST(Evaluate, ReplacesFilesOfTheirKindOnly) {
   const ScratchFolder folder;
   const auto reference = folder.Write("truth.txt", kTum).string();
-  const std::vector<std::pair<std::string, std::string>> outputs = {{"--json", "a.json"},
-                                                                    {"--json", "b.txt"},
-                                                                    {"--plot", "c.svg"},
-                                                                    {"--plot", "d.png"},
-                                                                    {"--plot-lines", "e.svg"}};
+  const std::vector<std::pair<std::string, std::string>> outputs = {
+      {"--json", "a.json"}, {"--json", "b.txt"}, {"--plot", "c.svg"}, {"--plot", "d.png"}};
   for (const auto& [option, name] : outputs) {
     const std::string file = folder.Write(name, "{\"mine\": \"<svg PNG\"}").string();
     EXPECT_THAT(EvaluateMessage({reference, reference, option, file}),
                 StartsWith(option + " " + file + ": expected "));
     EXPECT_EQ(Contents(file), "{\"mine\": \"<svg PNG\"}") << file;
     std::filesystem::remove(file);
-    if (option == "--plot-lines") continue;  // there are no lines
     testing::internal::CaptureStdout();
     EXPECT_EQ(EvaluateMessage({reference, reference, option, file}), "no error");
     EXPECT_EQ(EvaluateMessage({reference, reference, option, file}), "no error");
@@ -289,8 +280,6 @@ TEST(Evaluate, WritesEachResultIntoAFileOfItsOwn) {
   std::filesystem::create_directory(folder / "b");
   EXPECT_THAT(EvaluateMessage({reference, reference, "--plot", plot, "--json", same}),
               HasSubstr("--plot " + plot + ": expected another file than that of --json"));
-  EXPECT_THAT(EvaluateMessage({reference, reference, "--plot-lines", plot, "--plot", same}),
-              HasSubstr("--plot-lines " + plot + ": expected another file than that of --plot"));
   EXPECT_FALSE(std::filesystem::exists(plot));
 }
 
@@ -387,182 +376,14 @@ TEST(Evaluate, TellsTheDriftOfTheScaleOfASingleCamera) {
   EXPECT_THAT(Contents(folder / "out.json"), HasSubstr("\"scale_drift\": null"));
 }
 
-// A run in a world of its own: the reference world is turned, moved and 1 / scale as large.
-struct LineRun {
-  ScratchFolder folder;
-  std::filesystem::path sequence = WriteEuroc(folder), run = folder / "run";
-
-  explicit LineRun(double scale = 1) {
-    const Similarity3 run_from_reference{
-        scale, ExpSo3({0.3, -0.5, 0.2}), Eigen::Vector3d(4, -1, 2)};
-    const std::vector<TrueLine> truth = {
-        {{{0, 0, 1}, {2, 0, 1}}, TrueLineKind::kGeometry, {{{0, 3}}}},
-        {{{0, 1, 1}, {2, 1, 1}}, TrueLineKind::kTexture, {{{0, 3}}}},
-        {{{0, 2, 1}, {2, 2, 1}}, TrueLineKind::kTexture, {{{2, 2}}}}};
-    WriteTrueLines(sequence / "lines.csv", truth);
-    WriteSurfaces(sequence / "surfaces.csv",
-                  std::vector<Parallelogram>{{{-9, -9, 1}, {18, 0, 0}, {0, 18, 0}}});
-    Trajectory poses = LoadReference(sequence, std::nullopt).poses;
-    for (StampedPose& pose : poses) {
-      pose.world_from_camera = TransformPose(run_from_reference, pose.world_from_camera);
-    }
-    std::filesystem::create_directories(run);
-    WriteTum(run / "trajectory.txt", poses);
-    // The first and the third true line, and one in the air.
-    WriteObjLines(run / "lines.obj",
-                  Transformed(run_from_reference,
-                              {truth[0].segment, truth[2].segment, {{0, 0, 5}, {0, 2, 5}}}));
-  }
-
-  // Other ground truth: poses of the camera, which sits 0.1 m ahead of the body.
-  void WriteTruth(const Trajectory& poses) const {
-    std::string csv = "#timestamp,px,py,pz,qw,qx,qy,qz\n";
-    for (const StampedPose& pose : poses) {
-      const Eigen::Vector3d& p = pose.world_from_camera.translation;
-      csv += std::to_string(pose.stamp_ns) + "," + std::to_string(p.x() - 0.1) + "," +
-             std::to_string(p.y()) + "," + std::to_string(p.z()) + ",1,0,0,0\n";
-    }
-    folder.Write("seq/mav0/state_groundtruth_estimate0/data.csv", csv);
-  }
-
-  // The JSON of an evaluation, its table before it.
-  std::string Evaluate(const std::vector<std::string>& options,
-                       const std::string& estimate = "run") const {
-    std::vector<std::string> arguments = {sequence.string(), (folder / estimate).string()};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    arguments.insert(arguments.end(), {"--json", (folder / "out.json").string()});
-    testing::internal::CaptureStdout();
-    EXPECT_EQ(EvaluateCommand(arguments), 0);
-    return testing::internal::GetCapturedStdout() + Contents(folder / "out.json");
-  }
-};
-
-TEST(EvaluateLines, PutsTheLinesOfARunWhereItsPosesAre) {
-  const LineRun run;
-  const std::string text = run.Evaluate({});
-  EXPECT_THAT(text,
-              HasSubstr("lines       3 segments, 6.0 m, aligned by poses\n"
-                        "true lines  3, 6.0 m; asked for 2, 4.0 m (seen in 3 frames or"));
-  EXPECT_THAT(text,
-              HasSubstr("within [cm]                  1         2         5        10\n"
-                        "recall [%]                50.0      50.0      50.0      50.0\n"
-                        "  geometry               100.0     100.0     100.0     100.0\n"
-                        "  texture                  0.0       0.0       0.0       0.0\n"
-                        "precision [%]             66.7      66.7      66.7      66.7\n"
-                        "with counterpart             2         2         2         2\n"
-                        "  angle [deg]             0.00      0.00      0.00      0.00\n"));
-  EXPECT_THAT(text,
-              HasSubstr("uncovered at 10 cm  2.0 m; from the nearest surface "
-                        "400.0 cm (median), 100.0 % further than 5.0 cm\n"));
-  EXPECT_THAT(text, HasSubstr("\"asked_lines\": 2"));
-  EXPECT_THAT(text, HasSubstr("\"shadow\": null"));
-  EXPECT_THAT(text, HasSubstr("\"share_beyond_limit\": 1.0"));
-}
-
-TEST(EvaluateLines, TakeTheScaleOfTheAlignment) {
-  const LineRun half(0.5);
-  EXPECT_THAT(half.Evaluate({"--align", "sim3"}), HasSubstr("recall [%]                50.0"));
-  EXPECT_THAT(half.Evaluate({"--align", "se3"}), HasSubstr("recall [%]                 0.0"));
-  // Without alignment the estimate is taken to be in the world of the ground truth.
-  EXPECT_THAT(half.Evaluate({"--align", "none"}), HasSubstr("recall [%]                 0.0"));
-  WriteObjLines(half.run / "lines.obj", std::vector<Segment3>{{{0, 0, 1}, {2, 0, 1}}});
-  EXPECT_THAT(half.Evaluate({"--align", "none"}), HasSubstr("recall [%]                50.0"));
-}
-
-// Positions that are a little off turn a short path far around; its orientations tell better.
-TEST(EvaluateLines, AreAlignedByPoses) {
-  const LineRun run;
-  Trajectory poses = LoadReference(run.sequence, std::nullopt).poses;
-  for (StampedPose& pose : poses) pose.world_from_camera.translation *= 0.01;
-  run.WriteTruth(poses);
-  poses[2].world_from_camera.translation.z() += 0.002;
-  WriteTum(run.run / "trajectory.txt", poses);
-  WriteObjLines(run.run / "lines.obj", std::vector<Segment3>{{{0, 0, 1}, {2, 0, 1}}});
-  EXPECT_THAT(run.Evaluate({"--align-lines", "trajectory"}),
-              HasSubstr("precision [%]              0.0"));
-  const std::string text = run.Evaluate({});
-  EXPECT_THAT(text, HasSubstr("precision [%]            100.0"));
-  EXPECT_THAT(text, HasSubstr("\"alignment\": \"poses\""));
-}
-
-TEST(EvaluateLines, AreMirroredWithTheReference) {
-  const LineRun run;
-  Trajectory poses = MirroredY(LoadReference(run.sequence, std::nullopt).poses);
-  WriteTum(run.run / "trajectory.txt", poses);
-  WriteObjLines(run.run / "lines.obj", std::vector<Segment3>{{{0, -1, 1}, {2, -1, 1}}});
-  EXPECT_THAT(run.Evaluate({"--mirror-y", "--align", "none"}),
-              HasSubstr("  texture                100.0     100.0     100.0     100.0\n"));
-}
-
-TEST(EvaluateLines, ComeFromFilesThatAreNamed) {
-  const LineRun run;
-  const std::string trajectory = "run/trajectory.txt";
-  EXPECT_THAT(run.Evaluate({}, trajectory), HasSubstr("\"line_map\": null"));
-  const std::string lines = (run.run / "lines.obj").string();
-  EXPECT_THAT(run.Evaluate({"--lines", lines}, trajectory), HasSubstr("3 segments, 6.0 m"));
-  const std::string other = run.folder.Write("other.csv", "0,0,1,1,0,1\n").string();
-  const std::string far = run.folder.Write("far.csv", "-9,-9,4.5,18,0,0,0,18,0\n").string();
-  const std::string text = run.Evaluate({"--true-lines", other, "--surfaces", far});
-  EXPECT_THAT(text, HasSubstr("true lines  1, 1.0 m; asked for 1, 1.0 m"));
-  EXPECT_THAT(text, HasSubstr("100.0 % further"));
-  std::filesystem::remove(run.sequence / "surfaces.csv");
-  EXPECT_THAT(run.Evaluate({}), HasSubstr("uncovered at 10 cm  2.0 m\n"));
-}
-
-TEST(EvaluateLines, ComeFromAMapFile) {
-  const LineRun run;
-  const SyntheticWorld world = MakeSyntheticWorld(0, 20);
-  const Map map = MakeTrueMap(world, {PoseOnPath(0), PoseOnPath(20)}, {}).map;
-  ASSERT_GT(map.lines().size(), 5U);
-  SaveMap(run.folder / "map.plb", world.camera, Eigen::Quaterniond::Identity(), map);
-  std::vector<TrueLine> truth;
-  for (const SyntheticWorld::Line& line : world.lines) truth.push_back({line.segment});
-  WriteTrueLines(run.sequence / "lines.csv", truth);
-  const std::string text =
-      run.Evaluate({"--lines", (run.folder / "map.plb").string(), "--align", "none"});
-  EXPECT_THAT(text, HasSubstr("lines       " + std::to_string(map.lines().size()) + " segments"));
-  EXPECT_THAT(text, HasSubstr("precision [%]            100.0     100.0     100.0     100.0"));
-}
-
-TEST(EvaluateLines, AreDrawn) {
-  const LineRun run;
-  const std::string file = (run.folder / "lines.svg").string();
-  run.Evaluate({"--plot-lines", file});
-  EXPECT_THAT(Contents(file), HasSubstr("with counterpart"));
-  EXPECT_THAT(Contents(file), HasSubstr("from the side"));
-}
-
-TEST(EvaluateLines, NamesWhatIsMissing) {
-  const LineRun run;
-  const std::string sequence = run.sequence.string(), folder = run.run.string(),
-                    trajectory = (run.run / "trajectory.txt").string(),
-                    plot = (run.folder / "x.svg").string();
-  std::filesystem::create_directories(run.folder / "empty");
-  struct Case {
-    std::vector<std::string> arguments;
-    std::string message;
-  };
-  const std::string lines = (run.run / "lines.obj").string(),
-                    truth = (run.sequence / "lines.csv").string(),
-                    surfaces = (run.sequence / "surfaces.csv").string();
-  const std::string data = (run.sequence / "mav0").string();
-  const Case cases[] = {
-      {{sequence, (run.folder / "empty").string()}, "empty: expected a trajectory or the folder"},
-      {{data, folder, "--lines", lines}, "mav0: expected lines.csv to compare lines with, found"},
-      {{sequence, trajectory, "--true-lines", truth}, "expected lines.obj to compare"},
-      {{sequence, trajectory, "--surfaces", surfaces}, "(--lines FILE names one)"},
-      {{data, folder, "--plot-lines", plot}, "--plot-lines: expected lines.csv in REFERENCE"},
-      {{sequence, folder, "--lines", truth}, "lines.csv: expected a file name ending in .obj or"},
-      {{sequence, folder, "--true-lines", run.folder.Write("none.csv", "").string()},
-       "none.csv: expected lines, found no rows"},
-      {{sequence, folder, "--true-lines", lines}, "lines.obj:2: expected 6 to 8 columns"},
-      {{sequence, folder, "--lines", (run.folder / "no.obj").string()}, "no.obj: no such file"},
-      {{sequence, folder, "--align-lines", "x"}, "--align-lines: expected trajectory or poses"},
-      {{sequence, folder, "--plot-lines", "x.gif"}, "ending in .svg or .png"}};
-  for (const Case& bad : cases) {
-    testing::internal::CaptureStdout();
-    EXPECT_THAT(EvaluateMessage(bad.arguments), HasSubstr(bad.message));
-    testing::internal::GetCapturedStdout();
+TEST(Evaluate, SaysWhereLinesAreCompared) {
+  const ScratchFolder folder;
+  const auto reference = folder.Write("truth.txt", kTum).string();
+  for (const std::string option : {"--true-lines", "--lines", "--surfaces", "--plot-lines"}) {
+    EXPECT_EQ(EvaluateMessage({reference, reference, option, "a.svg"}),
+              "evaluate: " + option +
+                  " is no option any more: plumbline lines SEQUENCE RUN compares lines, where the "
+                  "laboratory is built");
   }
 }
 

@@ -18,13 +18,13 @@ TEST(LineMap, LinesOfARunLieOnThoseOfTheRenderedRoom) {
   for (const std::string& command :
        {"synth room --set frames=30 --set rate_hz=10 --set texel=4 --set scale=0.5 --out " + room,
         "run " + room + " --quiet --out " + run,
-        "evaluate " + room + " " + run + " --json " + Quoted(folder / "errors.json")}) {
+        "lines " + room + " " + run + " --json " + Quoted(folder / "errors.json")}) {
     const Outcome outcome = RunProgram(folder, command);
     ASSERT_EQ(outcome.code, 0) << command << "\n" << outcome.err;
   }
   const auto json = nlohmann::json::parse(Contents(folder / "errors.json"));
-  const auto& at_5_cm = json["line_map"]["tolerances"][2];
-  EXPECT_GT(json["line_map"]["segments"], 30);
+  const auto& at_5_cm = json["tolerances"][2];
+  EXPECT_GT(json["segments"], 30);
   EXPECT_GT(at_5_cm["precision"], 0.45);
   EXPECT_GT(at_5_cm["recall"], 0.25);
   EXPECT_GT(at_5_cm["with_counterpart"], 20);

@@ -5,7 +5,7 @@
 // the true ones. To see the figures of one:
 //
 //   plumbline synth WORLD --set scale=0.5 --set frames=100 --out W
-//   plumbline run W --out R && plumbline evaluate W R
+//   plumbline run W --out R && plumbline lines W R
 #include "worlds/sequence_cache.h"
 #include "worlds/world.h"
 #include "worlds/world_catalog.h"
@@ -42,12 +42,11 @@ void Check(const WorldGate& gate) {
   const std::filesystem::path world =
       CachedSequence(PLUMBLINE_RENDERED_FOLDER, gate.world, options, kThreads);
   const std::string run = Quoted(folder / "run");
-  for (const std::string& command :
-       {"run " + Quoted(world) + " " + gate.settings + " --quiet --out " + run,
-        "evaluate " + Quoted(world) + " " + run + " --json " + Quoted(folder / "errors.json")}) {
+  const auto expect_done = [&](const std::string& command) {
     const Outcome outcome = RunProgram(folder, command);
     ASSERT_EQ(outcome.code, 0) << command << "\n" << outcome.err;
-  }
+  };
+  expect_done("run " + Quoted(world) + " " + gate.settings + " --quiet --out " + run);
   const auto summary = nlohmann::json::parse(Contents(folder / "run/summary.json"));
   EXPECT_EQ(summary["frames"]["tracked"], gate.frames);
   EXPECT_EQ(summary["maps"], 1);
@@ -55,7 +54,8 @@ void Check(const WorldGate& gate) {
   EXPECT_LE(summary["accuracy_causal"]["ate"]["rmse"], gate.max_causal_m);
   ExpectLandmarksFit(folder / "run/map.plb");
   if (gate.min_found_m == 0) return;
-  const auto lines = nlohmann::json::parse(Contents(folder / "errors.json"))["line_map"];
+  expect_done("lines " + Quoted(world) + " " + run + " --json " + Quoted(folder / "errors.json"));
+  const auto lines = nlohmann::json::parse(Contents(folder / "errors.json"));
   const auto& at_5_cm = lines["tolerances"][2];
   EXPECT_GE(at_5_cm["recall"].get<double>() * lines["asked_length_m"].get<double>(),
             gate.min_found_m);

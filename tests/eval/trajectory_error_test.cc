@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/random.h"
 #include "plumbline/eval/figure.h"
+#include "plumbline/eval/figure_panel.h"
 #include "plumbline/eval/trajectory_figure.h"
 
 #include "tests/support/random_geometry.h"
@@ -409,6 +410,22 @@ TEST(TrajectoryFigure, ShowsTheTwoAxesOfMotionInRange) {
   EXPECT_THAT(svg, HasSubstr(">z [m]<"));
   EXPECT_THAT(svg, HasSubstr("RMSE"));
   EXPECT_EQ(svg, ToSvg(TrajectoryFigure(*error)));
+}
+
+// A path that stands still in the coordinates of a map: numbers of grid lines are beyond 2^31.
+TEST(FigurePanel, HasAGridFarFromTheOrigin) {
+  const Eigen::Vector2d place(448'262.1, -5'411'932.6);
+  const FigurePanel panel{70, 40, 800, 400, EqualScale({place, place}, 2), "x", "y", ""};
+  Figure figure;
+  DrawPanel(panel, figure);
+  ASSERT_GE(figure.lines.size(), 1U + 4 + 2);  // the border stands last
+  EXPECT_LE(figure.lines.size(), 1U + 10 + 7);
+  for (const Figure::Polyline& line : figure.lines) {
+    for (const Eigen::Vector2d& p : line.points) {
+      EXPECT_NEAR(p.x(), 470, 401);
+      EXPECT_NEAR(p.y(), 240, 201);
+    }
+  }
 }
 
 TEST(TrajectoryError, AKnownAlignmentIsAppliedAsItIs) {

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/eval/line_map_figure.h"
-
-#include "plumbline/eval/figure_panel.h"
+#include "lab/line_maps/line_map_figure.h"
 
 #include <algorithm>
 #include <string>
@@ -69,22 +67,6 @@ TEST(LineMapFigure, LooksAlongTheAxisOfLeastMotion) {
   for (const Figure::Text& text : figure.texts) labels.push_back(text.text);
   EXPECT_THAT(labels, testing::Contains("z [m], from above"));
   EXPECT_THAT(labels, testing::Contains("y [m], from the side"));
-}
-
-// A path that stands still in the coordinates of a map: numbers of grid lines are beyond 2^31.
-TEST(FigurePanel, HasAGridFarFromTheOrigin) {
-  const Eigen::Vector2d place(448'262.1, -5'411'932.6);
-  const FigurePanel panel{70, 40, 800, 400, EqualScale({place, place}, 2), "x", "y", ""};
-  Figure figure;
-  DrawPanel(panel, figure);
-  ASSERT_GE(figure.lines.size(), 1U + 4 + 2);  // the border stands last
-  EXPECT_LE(figure.lines.size(), 1U + 10 + 7);
-  for (const Figure::Polyline& line : figure.lines) {
-    for (const Eigen::Vector2d& p : line.points) {
-      EXPECT_NEAR(p.x(), 470, 401);
-      EXPECT_NEAR(p.y(), 240, 201);
-    }
-  }
 }
 
 TEST(LineMapFigure, OfNothingIsEmpty) {

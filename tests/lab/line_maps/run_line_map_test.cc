@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/line_map_file.h"
+#include "lab/line_maps/run_line_map.h"
 
 #include "plumbline/base/error.h"
 #include "plumbline/io/ply.h"

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/eval/line_visibility.h"
-#include "plumbline/eval/surface_distance.h"
+#include "lab/line_maps/line_viewers.h"
+#include "lab/line_maps/surface_distance.h"
 #include "plumbline/geometry/parallelogram.h"
 #include "plumbline/geometry/segment.h"
 #include "plumbline/geometry/true_line.h"

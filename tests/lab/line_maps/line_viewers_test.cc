@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/eval/line_visibility.h"
+#include "lab/line_maps/line_viewers.h"
 
+#include "lab/line_maps/line_map_error.h"
 #include "plumbline/base/random.h"
-#include "plumbline/eval/line_map_error.h"
 
 #include "tests/support/random_geometry.h"
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace line_visibility_test {
+namespace line_viewers_test {
 
 // 90 degrees wide, a little less high.
 Camera WideCamera() {
@@ -141,5 +141,5 @@ TEST(LineMapErrorWithViewers, AsksForWhatTheKeyFramesSee) {
   EXPECT_NEAR(*error.at[2].precision, 1, 1e-9);      // all of a true line covers
 }
 
-}  // namespace line_visibility_test
+}  // namespace line_viewers_test
 }  // namespace plumbline

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/eval/surface_distance.h"
+#include "lab/line_maps/surface_distance.h"
 
 #include "tests/support/random_geometry.h"
 #include <algorithm>

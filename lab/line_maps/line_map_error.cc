@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/eval/line_map_error.h"
+#include "lab/line_maps/line_map_error.h"
 
 #include "plumbline/base/error.h"
 #include "plumbline/eval/trajectory_error.h"

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "lab/line_maps/line_map_error.h"
 #include "plumbline/eval/figure.h"
-#include "plumbline/eval/line_map_error.h"
 #include "plumbline/eval/trajectory_error.h"
 #include "plumbline/geometry/true_line.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/experiments/run_trajectory.h"
+#include "lab/line_maps/run_trajectory.h"
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
