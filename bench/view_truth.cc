@@ -3,8 +3,8 @@
 #include "view_truth.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/io/true_world.h"
 #include "plumbline/map/covisibility.h"
+#include "worlds/true_world.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/io/obj_lines.h"
-#include "plumbline/io/true_world.h"
+#include "worlds/true_world.h"
 
 #include "fuzz/input_folder.h"
 

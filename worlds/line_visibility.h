@@ -4,7 +4,7 @@
 
 #include "plumbline/geometry/camera.h"
 #include "plumbline/geometry/se3.h"
-#include "plumbline/geometry/true_line.h"
+#include "worlds/true_line.h"
 
 #include <cstddef>
 #include <functional>

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "plumbline/geometry/camera.h"
-#include "plumbline/geometry/true_line.h"
 #include "worlds/line_visibility.h"
 #include "worlds/painted_edges.h"
 #include "worlds/scene.h"
 #include "worlds/shadow_edges.h"
+#include "worlds/true_line.h"
 
 #include <span>
 #include <vector>

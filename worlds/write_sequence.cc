@@ -6,8 +6,8 @@
 #include "plumbline/base/input_file.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/io/atomic_file.h"
-#include "plumbline/io/true_world.h"
 #include "worlds/sequence_formats.h"
+#include "worlds/true_world.h"
 
 #include <array>
 #include <iomanip>

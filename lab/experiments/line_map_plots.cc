@@ -12,7 +12,7 @@
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/io/png.h"
-#include "plumbline/io/true_world.h"
+#include "worlds/true_world.h"
 
 #include <algorithm>
 #include <array>

@@ -4,9 +4,9 @@
 
 #include "lab/line_maps/line_viewers.h"
 #include "lab/line_maps/surface_distance.h"
-#include "plumbline/geometry/parallelogram.h"
 #include "plumbline/geometry/segment.h"
-#include "plumbline/geometry/true_line.h"
+#include "worlds/parallelogram.h"
+#include "worlds/true_line.h"
 
 #include <array>
 #include <cstddef>

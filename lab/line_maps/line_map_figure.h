@@ -5,7 +5,7 @@
 #include "lab/line_maps/line_map_error.h"
 #include "plumbline/eval/figure.h"
 #include "plumbline/eval/trajectory_error.h"
-#include "plumbline/geometry/true_line.h"
+#include "worlds/true_line.h"
 
 #include <span>
 

@@ -4,7 +4,7 @@
 
 #include "plumbline/eval/trajectory_error.h"
 #include "plumbline/geometry/camera.h"
-#include "plumbline/geometry/true_line.h"
+#include "worlds/true_line.h"
 
 #include <array>
 #include <cstdint>

@@ -9,7 +9,7 @@
 #include "plumbline/io/obj_lines.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
-#include "plumbline/io/true_world.h"
+#include "worlds/true_world.h"
 
 #include <cstdint>
 #include <system_error>

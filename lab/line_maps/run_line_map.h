@@ -4,10 +4,10 @@
 
 #include "lab/line_maps/line_viewers.h"
 #include "plumbline/eval/trajectory_error.h"
-#include "plumbline/geometry/parallelogram.h"
 #include "plumbline/geometry/segment.h"
 #include "plumbline/geometry/sim3.h"
-#include "plumbline/geometry/true_line.h"
+#include "worlds/parallelogram.h"
+#include "worlds/true_line.h"
 
 #include <filesystem>
 #include <optional>

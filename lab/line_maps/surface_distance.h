@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/geometry/parallelogram.h"
 #include "plumbline/geometry/segment.h"
+#include "worlds/parallelogram.h"
 
 #include <optional>
 #include <span>

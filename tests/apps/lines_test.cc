@@ -6,7 +6,7 @@
 #include "plumbline/io/obj_lines.h"
 #include "plumbline/io/ply.h"
 #include "plumbline/io/trajectory_io.h"
-#include "plumbline/io/true_world.h"
+#include "worlds/true_world.h"
 
 #include "apps/commands.h"
 #include "tests/io/scratch_folder.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/true_world.h"
+#include "worlds/true_world.h"
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/options.h"
@@ -21,12 +21,12 @@ namespace {
 
 using std::filesystem::path;
 
-constexpr std::size_t kEnds = 6, kWithKind = 7, kWithFrames = 8, kSurfaceColumns = 9;
+constexpr std::size_t kEndColumns = 6, kWithKind = 7, kWithFrames = 8, kSurfaceColumns = 9;
 
 std::string Columns(const TextRow& row) { return fmt::format("{} columns", row.fields.size()); }
 
 TrueLineKind KindAt(const path& file, const TextRow& row) {
-  const std::string& text = row.fields[kEnds];
+  const std::string& text = row.fields[kEndColumns];
   for (const auto& [kind, name] : EnumNames(std::type_identity<TrueLineKind>{})) {
     if (text == name) return kind;
   }
@@ -75,10 +75,11 @@ std::vector<FrameRange> RangesAt(const path& file, const TextRow& row) {
 }
 
 // Returns the shortest text that reads back as the same number, without a minus sign before zero.
-std::string Number(double value) { return fmt::format("{}", value + 0.0); }
+std::string ShortestNumber(double value) { return fmt::format("{}", value + 0.0); }
 
 void AppendVector(const Eigen::Vector3d& v, std::string& text) {
-  text += fmt::format("{},{},{}", Number(v.x()), Number(v.y()), Number(v.z()));
+  text +=
+      fmt::format("{},{},{}", ShortestNumber(v.x()), ShortestNumber(v.y()), ShortestNumber(v.z()));
 }
 
 std::string FormatRanges(const std::vector<FrameRange>& ranges) {
@@ -99,7 +100,7 @@ std::vector<TrueLine> ReadTrueLines(const path& file) {
   lines.reserve(rows.size());
   for (const TextRow& row : rows) {
     const std::size_t columns = row.fields.size();
-    if (columns < kEnds || columns > kWithFrames) {
+    if (columns < kEndColumns || columns > kWithFrames) {
       FailAt(file, row.line, "6 to 8 columns (x1,y1,z1,x2,y2,z2,kind,visible)", Columns(row));
     }
     if (columns != rows.front().fields.size()) {

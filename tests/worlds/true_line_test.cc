@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/geometry/true_line.h"
+#include "worlds/true_line.h"
 
 #include <gtest/gtest.h>
 

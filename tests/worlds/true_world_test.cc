@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/true_world.h"
+#include "worlds/true_world.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/support/random_geometry.h"

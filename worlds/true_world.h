@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/geometry/parallelogram.h"
-#include "plumbline/geometry/true_line.h"
+#include "worlds/parallelogram.h"
+#include "worlds/true_line.h"
 
 #include <filesystem>
 #include <span>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/geometry/parallelogram.h"
+#include "worlds/parallelogram.h"
 
 #include "plumbline/geometry/segment.h"
 
