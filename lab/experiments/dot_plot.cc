@@ -3,7 +3,6 @@
 #include "lab/experiments/dot_plot.h"
 
 #include "plumbline/base/elementary.h"
-#include "plumbline/eval/figure_panel.h"
 
 #include <algorithm>
 #include <array>

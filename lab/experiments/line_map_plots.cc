@@ -3,11 +3,12 @@
 #include "lab/experiments/line_map_plots.h"
 
 #include "lab/line_maps/line_map_error.h"
+#include "lab/line_maps/line_map_figure.h"
 #include "lab/line_maps/run_line_map.h"
 #include "lab/line_maps/run_trajectory.h"
 #include "plumbline/base/base64.h"
 #include "plumbline/base/error.h"
-#include "plumbline/eval/figure_panel.h"
+#include "plumbline/eval/trajectory_figure.h"
 #include "plumbline/io/keyframe_images.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/open_dataset.h"

@@ -6,7 +6,7 @@
 #include "lab/experiments/line_map_plots.h"
 #include "lab/line_maps/run_trajectory.h"
 #include "plumbline/base/error.h"
-#include "plumbline/eval/figure_panel.h"
+#include "plumbline/eval/trajectory_figure.h"
 #include "plumbline/io/map_io.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "lab/line_maps/line_map_figure.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/eval/figure_panel.h"
+#include "plumbline/eval/trajectory_figure.h"
 
 #include <algorithm>
 #include <array>
@@ -108,6 +108,23 @@ Figure LineMapFigure(std::span<const TrueLine> truth,
            figure);
   DrawLegend({kLeft + kWidth, kTop - 6}, figure);
   return figure;
+}
+
+std::optional<Segment2> Clipped(const Segment2& segment, const Eigen::AlignedBox2d& box) {
+  const Vector2d d = segment.end - segment.start;
+  double from = 0, to = 1;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double low = box.min()(axis) - segment.start(axis);
+    const double high = box.max()(axis) - segment.start(axis);
+    if (d(axis) == 0) {
+      if (low > 0 || high < 0) return std::nullopt;
+      continue;
+    }
+    from = std::max(from, std::min(low / d(axis), high / d(axis)));
+    to = std::min(to, std::max(low / d(axis), high / d(axis)));
+  }
+  if (from > to) return std::nullopt;
+  return Segment2{segment.start + from * d, segment.start + to * d};
 }
 
 }  // namespace plumbline

@@ -5,9 +5,13 @@
 #include "lab/line_maps/line_map_error.h"
 #include "plumbline/eval/figure.h"
 #include "plumbline/eval/trajectory_error.h"
+#include "plumbline/geometry/segment.h"
 #include "worlds/true_line.h"
 
+#include <optional>
 #include <span>
+
+#include <Eigen/Geometry>
 
 namespace plumbline {
 
@@ -24,5 +28,9 @@ Figure LineMapFigure(std::span<const TrueLine> truth,
                      std::span<const Segment3> estimate,
                      const LineMapError& error,
                      std::span<const EvaluatedPose> poses);
+
+// Returns the part of a segment inside a box (Liang and Barsky, A new concept and method for line
+// clipping, 1984).
+std::optional<Segment2> Clipped(const Segment2& segment, const Eigen::AlignedBox2d& box);
 
 }  // namespace plumbline

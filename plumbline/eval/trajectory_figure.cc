@@ -3,7 +3,6 @@
 #include "plumbline/eval/trajectory_figure.h"
 
 #include "plumbline/base/elementary.h"
-#include "plumbline/eval/figure_panel.h"
 
 #include <algorithm>
 #include <array>
@@ -198,6 +197,16 @@ Vector3d RollPitchYawDeg(const Eigen::Quaterniond& rotation) {
   return kDegrees * Vector3d(math::Atan2(R(2, 1), R(2, 2)),
                              math::Asin(std::clamp(-R(2, 0), -1.0, 1.0)),
                              math::Atan2(R(1, 0), R(0, 0)));
+}
+
+std::pair<int, int> AxesOfMostMotion(std::span<const EvaluatedPose> poses) {
+  Eigen::AlignedBox3d box;
+  for (const EvaluatedPose& pose : poses) box.extend(pose.reference.translation);
+  int least = 2;  // if sizes are equal it is z, which is up in most worlds
+  for (const int axis : {1, 0}) {
+    if (box.sizes()(axis) < box.sizes()(least)) least = axis;
+  }
+  return {least == 0 ? 1 : 0, least == 2 ? 1 : 2};
 }
 
 Figure TrajectoryFigure(std::span<const NamedError> errors) {

@@ -7,6 +7,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -23,6 +24,10 @@ struct NamedError {
 // the fixed axes x, y and z, one after the other. Pitch is within 90 degrees of 0; at its ends roll
 // and yaw are not determined separately.
 Eigen::Vector3d RollPitchYawDeg(const Eigen::Quaterniond& rotation);
+
+// Returns the two axes with the largest motion of the reference, in their order x, y, z. The third
+// one is up in most worlds.
+std::pair<int, int> AxesOfMostMotion(std::span<const EvaluatedPose> poses);
 
 // Draws evaluated trajectories with their references: from above ("above" is along the axis in
 // which the reference of the first one moves least), the position errors over time, and over time

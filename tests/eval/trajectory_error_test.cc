@@ -5,7 +5,6 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/random.h"
 #include "plumbline/eval/figure.h"
-#include "plumbline/eval/figure_panel.h"
 #include "plumbline/eval/trajectory_figure.h"
 
 #include "tests/support/random_geometry.h"
