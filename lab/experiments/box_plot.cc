@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/box_plot.h"
 
-
 #include <algorithm>
 #include <iterator>
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/surface_plot.h"
 
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
