@@ -60,17 +60,6 @@ std::optional<fs::path> FolderOfRun(const fs::path& estimate) {
   return folder;
 }
 
-// Each output has a place of its own.
-void CheckApartFromEachOther(const std::vector<NamedOutput>& outputs) {
-  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
-    for (auto before = outputs.begin(); before != output; ++before) {
-      if (!IsSamePath(output->second, before->second)) continue;
-      throw InputError(std::string(output->first) + " " + output->second.string() +
-                       ": expected another file than that of " + std::string(before->first));
-    }
-  }
-}
-
 // evaluate writes the one beginning for one estimate, the other for several.
 bool IsJsonOfEvaluate(const fs::path& file) {
   return FileBeginsWith(file, "{\n  \"alignment\": ") ||
