@@ -67,7 +67,7 @@ void CheckKeepsResults(std::string_view option, const std::filesystem::path& fil
   std::error_code error;
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   // A list that is damaged protects results as well.
-  if (!std::filesystem::exists(folder / RunManifest::kFile, error)) return;
+  if (!std::filesystem::exists(folder / kRunList, error)) return;
   CheckNoResult(option, file, folder);
 }
 

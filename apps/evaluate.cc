@@ -303,7 +303,7 @@ int EvaluateCommand(std::span<const std::string> arguments) {
   std::vector<std::filesystem::path> read;
   for (const std::string& path : paths) read.push_back(EstimateFile(path));
   if (const auto other = line.Value("--align-by")) read.push_back(EstimateFile(*other));
-  CheckOutputs(outputs, line.Positional(0), paths, FilesRead(line, reference, read));
+  CheckOutputs(outputs, line.Positional(0), FilesRead(line, reference, read));
   const std::optional<Evaluation> other = EvaluateOther(line, reference);
   std::vector<EvaluatedEstimate> estimates;
   std::vector<Evaluation> evaluations;

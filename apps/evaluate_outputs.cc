@@ -6,8 +6,6 @@
 #include "plumbline/base/input_file.h"
 #include "plumbline/io/path_overlap.h"
 #include "plumbline/io/trajectory_io.h"
-#include "plumbline/report/run_folder.h"
-#include "plumbline/report/run_manifest.h"
 
 #include "apps/command_outputs.h"
 #include "apps/figure_file.h"
@@ -49,15 +47,6 @@ std::vector<NamedOutput> Named(const EvaluateOutputs& outputs) {
   if (outputs.plot) named.emplace_back("--plot", *outputs.plot);
   for (const fs::path& file : outputs.aligned) named.emplace_back("--save-aligned", file);
   return named;
-}
-
-// The folder of the run that an estimate is of; nullopt: it is of none.
-std::optional<fs::path> FolderOfRun(const fs::path& estimate) {
-  std::error_code error;
-  if (fs::is_directory(estimate, error)) return estimate;
-  const fs::path folder = fs::absolute(estimate, error).parent_path();
-  if (!fs::exists(folder / RunManifest::kFile, error)) return std::nullopt;
-  return folder;
 }
 
 // evaluate writes the one beginning for one estimate, the other for several.
@@ -130,24 +119,15 @@ EvaluateOutputs ReadOutputs(const CommandLine& line, const std::vector<std::stri
 
 void CheckOutputs(const EvaluateOutputs& outputs,
                   const fs::path& reference,
-                  const std::vector<std::string>& estimates,
                   const std::vector<fs::path>& read) {
   std::error_code error;
   const bool of_data_set = fs::is_directory(reference, error);
   for (const auto& [option, path] : Named(outputs)) {
-    const std::string what = std::string(option) + " " + path.string();
     if (of_data_set && fs::exists(path, error) && IsWithin(path, reference)) {
-      throw InputError(what + ": expected a file outside of " + reference.string() +
-                       ", or a new one");
+      throw InputError(std::string(option) + " " + path.string() + ": expected a file outside of " +
+                       reference.string() + ", or a new one");
     }
-    for (const fs::path& input : read) {
-      if (!fs::equivalent(path, input, error)) continue;
-      throw InputError(what + ": expected a file to write, found one that is compared");
-    }
-    for (const std::string& estimate : estimates) {
-      if (const auto run = FolderOfRun(estimate)) CheckNoResult(option, path, *run);
-    }
-    CheckOutput(option, path, {}, KindOfOutput(option, path));
+    CheckOutput(option, path, read, KindOfOutput(option, path));
   }
   CheckApartFromEachOther(Named(outputs));
 }

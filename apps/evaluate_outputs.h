@@ -34,11 +34,9 @@ EvaluateOutputs ReadOutputs(const CommandLine& line, const std::vector<std::stri
 // of a run, a file of another kind, or another output. Changes nothing.
 //
 //   reference  the first argument
-//   estimates  the other ones
 //   read       all input files
 void CheckOutputs(const EvaluateOutputs& outputs,
                   const std::filesystem::path& reference,
-                  const std::vector<std::string>& estimates,
                   const std::vector<std::filesystem::path>& read);
 
 // Returns an aligned trajectory in TUM form, below a comment that describes it. Throws InputError,

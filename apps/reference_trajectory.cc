@@ -8,7 +8,7 @@
 #include "plumbline/io/euroc_sensor.h"
 #include "plumbline/io/kitti.h"
 #include "plumbline/io/text_rows.h"
-#include "plumbline/report/run_manifest.h"
+#include "plumbline/report/run_folder.h"
 
 #include <set>
 #include <string>
@@ -72,11 +72,9 @@ std::optional<std::size_t> FramesBeside(const ReferenceTrajectory& reference) {
 std::optional<fs::path> FolderOfItsRun(const fs::path& trajectory) {
   const fs::path folder = fs::absolute(trajectory).parent_path();
   try {
-    const std::optional<RunManifest> manifest = ReadRunManifest(folder);
+    const auto list = ReadRunList(folder);  // a killed run has none
     const std::string name = trajectory.filename().string();
-    // A killed run has no list either.
-    const bool listed = manifest && manifest->complete;
-    const bool its = listed ? manifest->Lists(name) : IsRunFile(name);
+    const bool its = list ? std::binary_search(list->begin(), list->end(), name) : IsRunFile(name);
     return its ? std::optional(folder) : std::nullopt;
   } catch (const InputError&) {  // something else of that name
     return std::nullopt;

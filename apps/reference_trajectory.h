@@ -42,7 +42,7 @@ ReferenceTrajectory LoadReference(const std::filesystem::path& path,
                                   std::optional<ReferenceFrame> frame);
 
 // Returns the number of frames given to a run, from the frames.csv beside its trajectory; nullopt
-// without one, and if the manifest beside it (RunManifest) does not list the trajectory.
+// without one, and if the list beside it (kRunList) does not list the trajectory.
 std::optional<std::size_t> FramesOfRun(const std::filesystem::path& trajectory);
 
 // Returns true if the summary.json beside a trajectory says that it is of a single camera, with

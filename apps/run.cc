@@ -281,28 +281,17 @@ std::vector<std::string> LoadMapInto(System& system, const RunSetup& setup) {
   }
 }
 
-// A recording has a file beside it until it is complete.
-void CheckOutputsApart(const RunSetup& setup) {
-  std::vector<std::pair<std::string_view, std::filesystem::path>> outputs;
-  if (setup.view.record) {
-    outputs.emplace_back("--record", *setup.view.record);
-    outputs.emplace_back("--record", McapFileWriter::PartOf(*setup.view.record));
-  }
-  CheckApartFromEachOther(outputs);
-}
-
 // The recording takes the place of a file when it is complete.
-void CheckFilesApart(const RunSetup& setup, std::vector<RunInput> inputs) {
-  CheckOutputsApart(setup);
-  if (setup.view.record) {
-    CheckFileApart("--record", *setup.view.record, inputs);
-    CheckFileApart("--record", McapFileWriter::PartOf(*setup.view.record), inputs);
-    McapFileWriter::CheckPart(*setup.view.record);
-    CheckNoResult("--record", *setup.view.record, setup.folder);
-    CheckReplaceable(*setup.view.record);
-    const std::string beginning = McapFileWriter::Beginning();
-    CheckReplacesItsKind("--record", *setup.view.record, {"a recording by plumbline", beginning});
-  }
+void CheckRecording(const std::filesystem::path& file,
+                    const std::filesystem::path& out,
+                    std::span<const RunInput> inputs) {
+  CheckFileApart("--record", file, inputs);
+  CheckFileApart("--record", McapFileWriter::PartOf(file), inputs);
+  McapFileWriter::CheckPart(file);
+  CheckNoResult("--record", file, out);
+  CheckReplaceable(file);
+  const std::string beginning = McapFileWriter::Beginning();
+  CheckReplacesItsKind("--record", file, {"a recording by plumbline", beginning});
 }
 
 // Before anything is done: that there is somewhere to listen, and to record to.
@@ -411,9 +400,9 @@ int RunCommand(std::span<const std::string> arguments) {
   const auto start = Clock::now();
   RunSetup setup = ReadSetup(line);
   RunFrames input = OpenInput(line, setup);
-  std::vector<RunInput> inputs = InputsOf(line, *input.dataset);
+  const std::vector<RunInput> inputs = InputsOf(line, *input.dataset);
   CheckApart(setup.folder, inputs);
-  CheckFilesApart(setup, std::move(inputs));
+  if (setup.view.record) CheckRecording(*setup.view.record, setup.folder, inputs);
   System system(input.dataset->calibration(), setup.options);
   system.DescribeSession(PLUMBLINE_VERSION);
   const std::vector<std::string> map_notes = LoadMapInto(system, setup);

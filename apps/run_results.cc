@@ -73,9 +73,7 @@ class ResultWriter {
     return fmt::format("overlay_{:06}.png", frame);
   }
 
-  void Write(const RunFile& file) {
-    if (folder_.Write(file)) written_.push_back(file.name);
-  }
+  void Write(const RunFile& file) { folder_.Write(file); }
 
   // A lack of memory is left to the files that need the line maps, which then fail.
   void MakeLineMaps() const {
@@ -145,25 +143,20 @@ class ResultWriter {
     return cut_off && same && static_cast<std::size_t>(counts.in_trajectory) < earlier->poses;
   }
 
-  // The journal's files are removed, except those still valid whose final form could not be
-  // written.
   std::optional<std::string> PutInPlace() {
-    std::vector<std::string> kept = written_;
-    kept.insert(kept.end(), {TrajectoryNames().causal, "frames.csv"});
-    folder_.KeepOnly(kept);
-    std::optional<std::string> failure = folder_.Failures();
     if (folder_.WouldLose()) {
       return fmt::format("{} ({} keeps the earlier results, {} has what could be written)",
-                         *failure,
+                         *folder_.Failures(),
                          folder_.path().string(),
                          folder_.part().string());
     }
     try {
       folder_.Commit();
     } catch (const InputError& error) {
-      failure = (failure ? *failure + "; " : std::string()) + error.what();
+      const auto failures = folder_.Failures();
+      return (failures ? *failures + "; " : std::string()) + error.what();
     }
-    return failure;
+    return folder_.Failures();
   }
 
   const FinishedRun& run_;
@@ -171,7 +164,6 @@ class ResultWriter {
   RunDescription description_ = run_.description;
   std::optional<StopSignal> interrupted_;
   ResourceUse resources_;
-  std::vector<std::string> written_;
 };
 
 }  // namespace

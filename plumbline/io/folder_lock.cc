@@ -43,10 +43,8 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& h
 }
 
 FolderLock::~FolderLock() {
-  if (IsInPlace()) ::unlink(path_.c_str());
+  if (IsFileAt(file_, path_)) ::unlink(path_.c_str());  // not that of another folder of this name
   ::close(file_);
 }
-
-bool FolderLock::IsInPlace() const { return IsFileAt(file_, path_); }
 
 }  // namespace plumbline

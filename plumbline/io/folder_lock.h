@@ -19,9 +19,6 @@ class FolderLock {
   FolderLock& operator=(const FolderLock&) = delete;
   ~FolderLock();
 
-  // Returns true if the locked file still exists; false if the folder was removed.
-  bool IsInPlace() const;
-
  private:
   std::filesystem::path path_;
   int file_ = -1;

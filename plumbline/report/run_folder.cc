@@ -24,12 +24,11 @@ namespace plumbline {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
+constexpr const char* kListKey = "plumbline_run";
+constexpr int kListVersion = 1;
 constexpr const char* kPart = ".part";
-// Room on the disk for the manifests, which is given back when they are written.
-constexpr const char* kReserve = ".reserve";
-constexpr std::size_t kReserveBytes = 32 << 10;
-constexpr const char* kHeld = "another run is writing into this folder; choose another --out";
 
 void MoveFile(const fs::path& from, const fs::path& to) {
   std::error_code error;
@@ -40,101 +39,114 @@ void MoveFile(const fs::path& from, const fs::path& to) {
   }
 }
 
-void RemoveFile(const fs::path& path) {
-  std::error_code error;
-  fs::remove(path, error);
-  if (error) throw InputError("cannot remove " + path.string() + ": " + error.message());
-}
-
 bool IsFolder(const fs::path& path) {
   std::error_code error;
   return fs::is_directory(fs::symlink_status(path, error));
 }
 
-// Returns true for a temporary file left by a run that was killed while it wrote (AtomicFile).
-bool IsTemporary(const std::string& name) {
-  static const std::regex temporary(R"(\.(.+)\.[0-9]+\.tmp(\.[a-z]+)?)");
-  std::smatch parts;
-  if (!std::regex_match(name, parts, temporary)) return false;
-  const std::string written = parts.str(1) + parts.str(2);
-  return written == RunManifest::kFile || IsRunFile(written);
+bool Contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Removes only files of a run. Everything else stays, and then the folder does, too.
+std::vector<std::string> NamesIn(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    names.push_back(it->path().filename().string());
+  }
+  return names;
+}
+
+// Hidden files of a part are temporary ones of a program that was killed (AtomicFile), and its
+// list.
+bool IsOfPart(const std::string& name) { return IsRunFile(name) || name.front() == '.'; }
+
 void RemovePart(const fs::path& part) {
-  std::error_code error;
-  std::vector<fs::path> ours;
-  for (const auto& entry : fs::directory_iterator(part, error)) {
-    const std::string name = entry.path().filename().string();
-    if (IsRunFile(name) || IsTemporary(name) || name == kReserve) ours.push_back(entry.path());
+  std::error_code ignored;
+  for (const std::string& name : NamesIn(part)) {
+    if (IsOfPart(name)) fs::remove(part / name, ignored);
   }
-  for (const fs::path& path : ours) fs::remove(path, error);
-  fs::remove(part / RunManifest::kFile, error);
-  fs::remove(part, error);
+  fs::remove(part, ignored);
 }
 
-// Returns true if a file of the journal has no rows; FormatFrames has a header.
-bool HasNoRows(const fs::path& file) {
-  std::ifstream stream(file);
+// Returns true if a run left at least one frame in its journal: the first line names the columns.
+bool HoldsFrames(const fs::path& part) {
+  std::ifstream frames(part / "frames.csv");
   std::string header, row;
-  if (file.filename() == "frames.csv") std::getline(stream, header);
-  return !std::getline(stream, row);
-}
-
-// Returns true if a run ended before its first frame: all that is left are its options, and files
-// of the journal without rows.
-bool HoldsNoFrames(const fs::path& part) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(part, error)) {
-    const std::string name = entry.path().filename().string();
-    const bool of_journal =
-        name == "frames.csv" || (IsRunFile(name) && entry.path().extension() == ".txt");
-    const bool empty = name == "options.yaml" || name == kReserve || name == RunManifest::kFile ||
-                       IsTemporary(name) || (of_journal && HasNoRows(entry.path()));
-    if (!empty) return false;
-  }
-  return !error;
+  return std::getline(frames, header) && std::getline(frames, row);
 }
 
 // Returns true if a file may be replaced because a run wrote it.
-bool IsOurs(const RunManifest& manifest, const fs::path& folder, const std::string& name) {
-  return manifest.Lists(name) && !IsFolder(folder / name);
+bool IsOurs(const std::vector<std::string>& listed,
+            const fs::path& folder,
+            const std::string& name) {
+  return Contains(listed, name) && !IsFolder(folder / name);
 }
 
-// Returns the first of `names` that stands in the folder and was not written by a run.
-std::optional<std::string> Foreign(const fs::path& folder,
-                                   const RunManifest& manifest,
-                                   const std::vector<std::string>& names) {
-  const auto found = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
-    return IsTaken(folder / name) && !IsOurs(manifest, folder, name);
-  });
-  return found == names.end() ? std::nullopt : std::optional(*found);
-}
-
-// Begins the exchange, or continues an interrupted one: the program may be killed after any step.
-// The files of a complete part replace those of the folder; then the other files of the earlier run
-// are removed.
+// Moves the files of a complete part into the folder and removes the others of the earlier run. The
+// program may be killed after any step: the list of the part goes last, and every step can be done
+// again.
 void MoveIntoPlace(const fs::path& part, const fs::path& folder) {
-  const RunManifest next = ReadRunManifest(part).value_or(RunManifest{});
-  const RunManifest earlier = ReadRunManifest(folder).value_or(RunManifest{});
-  RunManifest both{true, {}};
-  std::set_union(earlier.files.begin(),
-                 earlier.files.end(),
-                 next.files.begin(),
-                 next.files.end(),
-                 std::back_inserter(both.files));
-  WriteRunManifest(folder, both);
-  for (const std::string& name : next.files) {
+  const std::vector<std::string> next = ReadRunList(part).value_or(std::vector<std::string>());
+  const std::vector<std::string> earlier = ReadRunList(folder).value_or(std::vector<std::string>());
+  for (const std::string& name : next) {
+    if (!IsTaken(part / name) || !IsTaken(folder / name) || IsOurs(earlier, folder, name)) continue;
+    throw InputError(fmt::format("{}: came there during the run; the results are in {}",
+                                 (folder / name).string(),
+                                 part.string()));
+  }
+  std::error_code ignored;
+  for (const std::string& name : earlier) {
+    if (!Contains(next, name) && !IsFolder(folder / name)) fs::remove(folder / name, ignored);
+  }
+  for (const std::string& name : next) {
     if (IsTaken(part / name)) MoveFile(part / name, folder / name);
   }
-  for (const std::string& name : earlier.files) {
-    if (!next.Lists(name) && IsOurs(earlier, folder, name)) RemoveFile(folder / name);
-  }
-  WriteRunManifest(folder, next);
+  MoveFile(part / kRunList, folder / kRunList);
   RemovePart(part);
 }
 
+[[noreturn]] void FailList(const fs::path& file) {
+  throw InputError(file.string() +
+                   ": expected the list of files that a run writes, found something else; choose "
+                   "another --out");
+}
+
 }  // namespace
+
+bool IsRunFile(const std::string& name) {
+  static const std::regex written(
+      R"((trajectory|trajectory_causal|trajectory_covariance|keyframes)(_map[0-9]+)?\.txt|)"
+      R"(overlay_[0-9]{6,}\.png|)"
+      R"(options\.yaml|(frames|timing)\.csv|(timing|summary)\.json|map\.(plb|ply)|lines\.(obj|dxf)|)"
+      R"(report\.html)");
+  return std::regex_match(name, written);
+}
+
+std::optional<std::vector<std::string>> ReadRunList(const fs::path& folder) {
+  const fs::path file = folder / kRunList;
+  if (!IsTaken(file)) return std::nullopt;
+  const auto text = ReadFileIfThere(file);
+  const Json json = text ? Json::parse(*text, nullptr, false) : Json();
+  if (!json.is_object() || json.value(kListKey, Json()) != kListVersion ||
+      !json.value("files", Json()).is_array()) {
+    FailList(file);
+  }
+  // Version 0.2.0 had a list in the part from the beginning of a run on.
+  if (json.value("complete", Json()) == false) return std::nullopt;
+  std::vector<std::string> names;
+  for (const Json& name : json["files"]) {
+    if (name.is_string() && IsRunFile(name)) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+void WriteRunList(const fs::path& folder, std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  const Json json = {{kListKey, kListVersion}, {"files", names}};
+  WriteFileAtomically(folder / kRunList, json.dump(1) + "\n");
+}
 
 void CheckApart(const fs::path& out, std::span<const RunInput> inputs) {
   for (const RunInput& input : inputs) {
@@ -174,7 +186,7 @@ void CheckFileApart(std::string_view option,
 void CheckNoResult(std::string_view option, const fs::path& file, const fs::path& out) {
   const std::string name = file.filename().string();
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  const bool result = IsRunFile(name) || name == RunManifest::kFile;
+  const bool result = IsRunFile(name) || name == kRunList;
   if (!IsWithin(file, out / kPart) && !(result && IsSamePath(folder, out))) return;
   throw InputError(fmt::format("{} {}: expected another name, found one that the results in {} use",
                                option,
@@ -193,10 +205,8 @@ RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)), part_(folder
 
 RunFolder::~RunFolder() {
   if (keep_) return;
-  try {
-    RemoveFolders();
-  } catch (const std::exception&) {  // files that cannot be removed stay
-  }
+  RemovePart(part_);
+  RemoveFolders();
 }
 
 void RunFolder::Open() {
@@ -206,69 +216,44 @@ void RunFolder::Open() {
     above = above.parent_path();
   }
   MakeFolder(folder_);
-  lock_.emplace(folder_, kHeld);
-  const auto here = ReadRunManifest(folder_).value_or(RunManifest{});
-  RefuseForeignFiles(folder_, "run", [&](const std::string& name) {
-    return IsRunFile(name) && !IsOurs(here, folder_, name);
-  });
-  TakeCareOfPart();
-  StartPart();
-}
-
-void RunFolder::TakeCareOfPart() {
-  std::error_code error;
-  if (!IsTaken(part_)) return;
-  const std::optional<RunManifest> left = IsFolder(part_) ? ReadRunManifest(part_) : std::nullopt;
-  if (!left) {
-    if (IsFolder(part_) && fs::is_empty(part_, error)) return;
+  lock_.emplace(folder_, "another run is writing into this folder; choose another --out");
+  const auto is_foreign = [](const std::string& name) { return !IsOfPart(name); };
+  const std::vector<std::string> left = NamesIn(part_);
+  if (std::any_of(left.begin(), left.end(), is_foreign) || (IsTaken(part_) && !IsFolder(part_))) {
     throw InputError(part_.string() +
                      ": not of a run of plumbline; move it away or choose another --out");
   }
-  if (left->complete) {
+  if (ReadRunList(part_)) {
     MoveIntoPlace(part_, folder_);
     notes_.push_back(folder_.string() +
                      ": an earlier run was killed while its results took their places; they are "
                      "complete now");
-    return;
   }
-  if (HoldsNoFrames(part_)) RemovePart(part_);
-  if (!IsTaken(part_)) return;
-  for (int k = 1;; ++k) {
-    const fs::path kept = folder_ / fmt::format("interrupted-{}", k);
-    if (IsTaken(kept)) continue;
-    MoveFile(part_, kept);
-    fs::remove(kept / kReserve, error);
-    notes_.push_back(fmt::format("{}: an earlier run was killed; what it had written is in {}",
-                                 folder_.string(),
-                                 kept.string()));
-    return;
-  }
+  const auto here = ReadRunList(folder_).value_or(std::vector<std::string>());
+  RefuseForeignFiles(folder_, "run", [&](const std::string& name) {
+    return IsRunFile(name) && !IsOurs(here, folder_, name);
+  });
+  SetPartAside();
+  MakeFolder(part_);
 }
 
-void RunFolder::StartPart() {
-  MakeFolder(part_);
-  part_made_ = true;
-  WriteRunManifest(part_, {});
-  try {
-    WriteFileAtomically(part_ / kReserve, std::string(kReserveBytes, ' '));
-  } catch (const InputError&) {  // on such a full disk the run may end without its manifest
-    return;
-  }
+// Keeps what a killed run left, if it has frames.
+void RunFolder::SetPartAside() {
+  if (!HoldsFrames(part_)) return RemovePart(part_);
+  int k = 1;
+  const auto kept = [&] { return folder_ / fmt::format("interrupted-{}", k); };
+  while (IsTaken(kept())) ++k;
+  MoveFile(part_, kept());
+  notes_.push_back(fmt::format("{}: an earlier run was killed; what it had written is in {}",
+                               folder_.string(),
+                               kept().string()));
 }
 
 // Removes the folders that this made, as far as they are empty.
 void RunFolder::RemoveFolders() {
   std::error_code error;
-  if (part_made_) RemovePart(part_);
   lock_.reset();
   for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder) fs::remove(*folder, error);
-}
-
-void RunFolder::Restore() {
-  if (lock_->IsInPlace() && IsTaken(part_ / RunManifest::kFile)) return;
-  MakeFolder(folder_);
-  if (!lock_->IsInPlace()) lock_.emplace(folder_, kHeld);
-  StartPart();
 }
 
 bool RunFolder::Write(const RunFile& file) {
@@ -277,8 +262,9 @@ bool RunFolder::Write(const RunFile& file) {
     return false;
   };
   try {
-    Restore();
+    MakeFolder(part_);
     file.write(part_ / file.name);
+    written_.push_back(file.name);
     return true;
   } catch (const WriteError& error) {
     return fail(error.why());
@@ -291,58 +277,52 @@ bool RunFolder::Write(const RunFile& file) {
 
 std::optional<std::string> RunFolder::Failures() const {
   if (failures_.empty()) return std::nullopt;
-  std::string text = "cannot write ";
-  for (std::size_t i = 0; i < failures_.size(); ++i) {
-    const Failure& failure = failures_[i];
-    const bool goes_on = i > 0 && failure.why == failures_[i - 1].why;
-    if (i > 0) text += goes_on ? ", " : ": " + failures_[i - 1].why + "; ";
-    text += goes_on ? failure.name : (folder_ / failure.name).string();
+  std::string text = "cannot write " + folder_.string() + "/";
+  for (const Failure& failure : failures_) {
+    text += (&failure == failures_.data() ? "" : "; ") + failure.name + ": " + failure.why;
   }
-  return text + ": " + failures_.back().why;
-}
-
-void RunFolder::KeepOnly(const std::vector<std::string>& names) const {
-  std::error_code ignored;
-  if (!IsTaken(part_)) return;
-  for (const std::string& name : RunFilesIn(part_)) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
-      fs::remove(part_ / name, ignored);
-    }
-  }
+  return text;
 }
 
 bool RunFolder::WouldLose() const {
-  if (failures_.empty()) return false;
-  const auto earlier = ReadRunManifest(folder_);
-  return earlier && !earlier->files.empty();
+  return !failures_.empty() && !ReadRunList(folder_).value_or(std::vector<std::string>()).empty();
 }
 
 std::optional<EarlierRun> RunFolder::Earlier() const {
-  if (!ReadRunManifest(folder_)) return std::nullopt;
+  if (!ReadRunList(folder_)) return std::nullopt;
   EarlierRun earlier;
   std::ifstream poses(folder_ / "trajectory.txt");
   for (std::string row; std::getline(poses, row);) ++earlier.poses;
   if (earlier.poses == 0) return std::nullopt;
   std::ifstream file(folder_ / "summary.json");
-  const auto summary = nlohmann::json::parse(file, nullptr, false);
-  if (summary.is_object()) {
-    const auto data = summary.find("data");
-    if (data != summary.end() && data->is_string()) earlier.data = *data;
-  }
+  const Json summary = Json::parse(file, nullptr, false);
+  const Json data = summary.is_object() ? summary.value("data", Json()) : Json();
+  if (data.is_string()) earlier.data = data;
   return earlier;
 }
 
 void RunFolder::Commit() {
-  Restore();
-  RemoveFile(part_ / kReserve);
-  const std::vector<std::string> names = RunFilesIn(part_);
-  const auto here = ReadRunManifest(folder_).value_or(RunManifest{});
-  if (const auto name = Foreign(folder_, here, names)) {
-    throw InputError(fmt::format("{}: came there during the run; the results are in {}",
-                                 (folder_ / *name).string(),
-                                 part_.string()));
+  MakeFolder(part_);
+  std::vector<std::string> names = {"trajectory_causal.txt", "frames.csv"};  // of the journal
+  for (const std::string& name : written_) {
+    if (!Contains(names, name)) names.push_back(name);
   }
-  WriteRunManifest(part_, {true, names});
+  std::erase_if(names, [&](const std::string& name) { return !IsTaken(part_ / name); });
+  std::error_code ignored;
+  for (const std::string& name : NamesIn(part_)) {
+    if (IsOfPart(name) && !Contains(names, name)) fs::remove(part_ / name, ignored);
+  }
+  while (true) {
+    try {
+      WriteRunList(part_, names);
+      break;
+    } catch (const WriteError& error) {
+      if (names.empty()) throw;
+      failures_.push_back({names.back(), error.why()});
+      fs::remove(part_ / names.back(), ignored);
+      names.pop_back();
+    }
+  }
   MoveIntoPlace(part_, folder_);
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "plumbline/io/folder_lock.h"
-#include "plumbline/report/run_manifest.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -15,6 +14,21 @@
 #include <vector>
 
 namespace plumbline {
+
+// List of the files that a run wrote into a folder, in JSON beside them. Later runs replace or
+// remove only listed files.
+constexpr const char* kRunList = ".plumbline-run";
+
+// Returns true for names of a run's files: trajectory.txt, trajectory_map2.txt, overlay_000010.png
+// and so on.
+bool IsRunFile(const std::string& name);
+
+// Returns the names listed in a folder, ascending; nullopt if it has no list. Names that no run
+// uses are left out. Throws InputError "<file>: expected ..., found ..." for an invalid list.
+std::optional<std::vector<std::string>> ReadRunList(const std::filesystem::path& folder);
+
+// Replaces the list of a folder. Throws WriteError.
+void WriteRunList(const std::filesystem::path& folder, std::vector<std::string> names);
 
 // A file of a run's results: its name, and the function that writes it to a path.
 struct RunFile {
@@ -53,17 +67,17 @@ void CheckNoResult(std::string_view option,
 
 // The folder of a run's results (--out DIR), protected against losses.
 //
-// A run writes into DIR/.part. At the end Commit() replaces the files of an earlier run, listed in
-// the manifest of DIR (RunManifest); other files are never touched. Killed at any moment, a run
-// leaves the earlier results unchanged and its own in DIR/.part, or, from the first step of
-// Commit() on, its own complete: the next RunFolder in DIR completes the exchange. Results of a
-// killed run in DIR/.part are kept as DIR/interrupted-1, -2 and so on, unless it processed no
-// frame. One program at a time works in DIR (FolderLock).
+// A run writes into DIR/.part. Commit() writes the list of its files there: from then on they are
+// complete, take the places of the earlier run's files, which DIR's list names, and last the list
+// takes the place of DIR's. Other files are never touched. Killed at any moment, a run leaves the
+// earlier results unchanged and its own in DIR/.part, or complete results, which the next RunFolder
+// in DIR moves into place. What a killed run left in DIR/.part is kept as DIR/interrupted-1, -2 and
+// so on, unless it processed no frame. One program at a time works in DIR (FolderLock).
 class RunFolder {
  public:
   // Creates DIR if it is missing, and DIR/.part. Throws InputError, with advice, if another run
   // writes there, if DIR has files with names of results that no run wrote, or if it cannot be
-  // written to; DIR is then unchanged.
+  // written to; files of the user are then unchanged.
   explicit RunFolder(std::filesystem::path folder);
   // Removes what it created in DIR, unless Keep() was called.
   ~RunFolder();
@@ -79,18 +93,12 @@ class RunFolder {
   // Marks the part as worth keeping.
   void Keep() { keep_ = true; }
 
-  // Creates the folders again if they were removed. Throws InputError if that fails.
-  void Restore();
-
-  // Writes a file into the part, and returns true on success. A failure is recorded for Failures(),
-  // so that later files are still written.
+  // Writes a file into the part, which is made again if it was removed; returns true on success. A
+  // failure is recorded for Failures(), so that later files are still written.
   bool Write(const RunFile& file);
-  // Returns "cannot write DIR/map.plb, report.html: <reason>" in one line; nullopt if all were
-  // written.
+  // Returns "cannot write DIR/map.plb: <reason>; report.html: <reason>" in one line; nullopt if all
+  // were written.
   std::optional<std::string> Failures() const;
-
-  // Removes from the part the files of a run that are not among `names`.
-  void KeepOnly(const std::vector<std::string>& names) const;
 
   // Returns true if Commit() would replace complete results by incomplete ones.
   bool WouldLose() const;
@@ -98,9 +106,11 @@ class RunFolder {
   // The earlier run whose results DIR has; nullopt where it has none with poses.
   std::optional<EarlierRun> Earlier() const;
 
-  // Moves the files of the part into DIR, removes those of the earlier run, then the part. Throws
-  // InputError if that is impossible, for instance because a file with the name of a result
-  // appeared in DIR meanwhile; the files are then in the part, or some of them already in DIR.
+  // Makes the files that Write() wrote, and of the journal (RunJournal) poses and frames if Write()
+  // failed to write those, the results in DIR; removes the earlier run's files and the part. On a
+  // full disk the last files make room for the list. Throws InputError if that is impossible, for
+  // instance because a file with the name of a result appeared in DIR meanwhile; the files are then
+  // in the part, or some of them already in DIR.
   void Commit();
 
  private:
@@ -110,8 +120,7 @@ class RunFolder {
   };
 
   void Open();
-  void TakeCareOfPart();
-  void StartPart();
+  void SetPartAside();
   void RemoveFolders();
 
   std::filesystem::path folder_;
@@ -119,9 +128,9 @@ class RunFolder {
   std::vector<std::filesystem::path> made_;  // folders created, outermost first
   std::optional<FolderLock> lock_;
   std::vector<std::string> notes_;
+  std::vector<std::string> written_;  // names, in the order of Write()
   std::vector<Failure> failures_;
   bool keep_ = false;
-  bool part_made_ = false;
 };
 
 }  // namespace plumbline

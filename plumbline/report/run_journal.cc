@@ -41,7 +41,7 @@ void RunJournal::TakeIn(const std::vector<FrameRecord>& records) {
 }
 
 void RunJournal::WriteFiles(RunFolder& folder) {
-  folder.Restore();
+  MakeFolder(folder.part());
   std::set<std::string> names;
   const auto write = [&](const std::string& name, const std::string& text) {
     WriteFileAtomically(folder.part() / name, text);
@@ -51,11 +51,11 @@ void RunJournal::WriteFiles(RunFolder& folder) {
     return a.second.frames < b.second.frames;
   });
   const MapText none;
+  write("frames.csv", FormatFrames({}) + frames_);
   write(TrajectoryNames().causal, main == maps_.end() ? none.causal : main->second.causal);
   for (auto map = maps_.begin(); map != maps_.end(); ++map) {
     if (map != main) write(TrajectoryNames(map->first).causal, map->second.causal);
   }
-  write("frames.csv", FormatFrames({}) + frames_);
   write(TrajectoryNames().keyframes, main == maps_.end() ? none.keyframes : main->second.keyframes);
   for (auto map = maps_.begin(); map != maps_.end(); ++map) {
     if (map != main) write(TrajectoryNames(map->first).keyframes, map->second.keyframes);

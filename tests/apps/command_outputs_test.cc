@@ -6,7 +6,7 @@
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/ply.h"
 #include "plumbline/io/trajectory_io.h"
-#include "plumbline/report/run_manifest.h"
+#include "plumbline/report/run_folder.h"
 
 #include "apps/exported_map.h"
 #include "tests/io/scratch_folder.h"
@@ -50,7 +50,7 @@ TEST(CommandOutputs, KeepTheResultsOfARun) {
   const ScratchFolder folder;
   const auto trajectory = folder.Write("trajectory.txt", "");
   EXPECT_NO_THROW(CheckKeepsResults("--json", trajectory));  // no run says that it is its
-  WriteRunManifest(folder.path(), {true, {"trajectory.txt"}});
+  WriteRunList(folder.path(), {"trajectory.txt"});
   EXPECT_THAT(MessageOf([&] { CheckKeepsResults("--json", trajectory); }),
               HasSubstr("--json " + trajectory.string() + ": expected another name, found one"));
   EXPECT_THAT(MessageOf([&] { CheckKeepsResults("--json", folder / ".plumbline-run"); }),
@@ -88,7 +88,7 @@ TEST(CommandOutputs, OfNoKindTakeThePlaceOfAUsersFiles) {
     EXPECT_NO_THROW(CheckOutput("path", folder / "new", {}, writer));
     // A result of a run, even of the same kind.
     const auto result = folder.Write("trajectory.txt", std::string(writer.begin));
-    WriteRunManifest(folder.path(), {true, {"trajectory.txt"}});
+    WriteRunList(folder.path(), {"trajectory.txt"});
     EXPECT_THAT(MessageOf([&] { CheckOutput("path", result, {}, writer); }),
                 HasSubstr("expected another name"));
     const std::filesystem::path input = folder / "camera.yaml";

@@ -196,8 +196,7 @@ TEST(EvaluateAligned, TakesThePlaceOfNothingElse) {
   const std::string mine = sequence.Write("mine.txt", Path(0, 3));
   EXPECT_THAT(Printed({sequence.truth, one, "--save-aligned", mine}),
               HasSubstr("mine.txt: expected a trajectory aligned by evaluate to replace"));
-  EXPECT_THAT(Printed({sequence.truth, one, "--save-aligned", one}),
-              HasSubstr("expected a file to write, found one that is compared"));
+  EXPECT_THAT(Printed({sequence.truth, one, "--save-aligned", one}), HasSubstr("which is read"));
   EXPECT_THAT(Printed({sequence.truth, one, one, "--save-aligned", mine}),
               HasSubstr("expected a folder for several estimates, found another file"));
   EXPECT_THAT(Printed({sequence.truth, one, "--save-aligned", "-"}),

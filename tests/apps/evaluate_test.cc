@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
-#include "plumbline/report/run_manifest.h"
+#include "plumbline/report/run_folder.h"
 
 #include "apps/commands.h"
 #include "apps/evaluate_report.h"
@@ -100,15 +100,10 @@ TEST(Reference, SaysWhatIsMissing) {
               HasSubstr("no such file or folder"));
 }
 
-// The folder of a run says that these files are of it.
-void WriteManifest(const ScratchFolder& folder, std::vector<std::string> files) {
-  WriteRunManifest(folder.path(), {true, std::move(files)});
-}
-
 TEST(Reference, FramesOfARunAreThoseOfItsTable) {
   const ScratchFolder folder;
   const auto trajectory = folder.Write("trajectory.txt", kTum);
-  WriteManifest(folder, {"frames.csv", "trajectory.txt"});
+  WriteRunList(folder.path(), {"frames.csv", "trajectory.txt"});
   EXPECT_FALSE(FramesOfRun(trajectory));
   folder.Write("frames.csv", "timestamp,state\n1.0,tracked\n1.05,tracked\n");
   EXPECT_EQ(FramesOfRun(trajectory), 2U);
@@ -117,7 +112,7 @@ TEST(Reference, FramesOfARunAreThoseOfItsTable) {
 TEST(Evaluate, KnowsTheRunOfASingleCamera) {
   const ScratchFolder folder;
   const auto trajectory = folder.Write("trajectory.txt", kTum);
-  WriteManifest(folder, {"summary.json", "trajectory.txt"});
+  WriteRunList(folder.path(), {"summary.json", "trajectory.txt"});
   EXPECT_FALSE(IsMonocularRun(trajectory));
   for (const std::string other : {"{\"sensor\": \"stereo\"}", "{\"sensor\": 1}", "[]", "no json"}) {
     folder.Write("summary.json", other);
@@ -137,7 +132,7 @@ TEST(Evaluate, BelievesATableOfFramesOnlyOfItsOwnRun) {
   EXPECT_TRUE(IsMonocularRun(own));
   EXPECT_FALSE(FramesOfRun(copy));
   EXPECT_FALSE(IsMonocularRun(copy));
-  WriteManifest(folder, {"frames.csv", "summary.json", "trajectory.txt"});
+  WriteRunList(folder.path(), {"frames.csv", "summary.json", "trajectory.txt"});
   EXPECT_EQ(FramesOfRun(own), 3U);
   EXPECT_TRUE(IsMonocularRun(own));
   EXPECT_FALSE(FramesOfRun(copy));
@@ -145,7 +140,8 @@ TEST(Evaluate, BelievesATableOfFramesOnlyOfItsOwnRun) {
   folder.Write(".plumbline-run", "{}");  // none of ours
   EXPECT_FALSE(FramesOfRun(own));
   EXPECT_FALSE(IsMonocularRun(own));
-  WriteRunManifest(folder.path(), {});  // a run that was killed has no list yet
+  // A run of 0.2.0 that was killed.
+  folder.Write(".plumbline-run", R"({"plumbline_run": 1, "complete": false, "files": []})");
   EXPECT_EQ(FramesOfRun(own), 3U);
   EXPECT_FALSE(FramesOfRun(copy));
 }
@@ -244,10 +240,11 @@ TEST(Evaluate, WritesOverNothingOfTheRun) {
   const auto estimate = folder.Write("run/trajectory.txt", kTum).string();
   const std::string run = (folder / "run").string();
   const std::string map = folder.Write("run/map.plb", "the map").string();
-  const auto refused = HasSubstr(map + ": expected another name, found one that the results in");
-  EXPECT_THAT(EvaluateMessage({reference, run, "--json", map}), refused);
+  EXPECT_THAT(EvaluateMessage({reference, run, "--json", map}),
+              HasSubstr(map + ": expected JSON of evaluate to replace, or a new file"));
   folder.Write("run/.plumbline-run", "{}");
-  EXPECT_THAT(EvaluateMessage({reference, estimate, "--json", map}), refused);
+  EXPECT_THAT(EvaluateMessage({reference, estimate, "--json", map}),
+              HasSubstr(map + ": expected another name, found one that the results in"));
   EXPECT_EQ(Contents(map), "the map");
   testing::internal::CaptureStdout();
   EXPECT_EQ(EvaluateMessage({reference, run, "--json", run + "/error.json"}), "no error");

@@ -171,7 +171,7 @@ int Kills() {
 
 // The file as the next run would find it in the results: new ones may wait in the part.
 fs::path PlaceOf(const fs::path& out, const std::string& name) {
-  const bool complete = Contents(out / ".part/.plumbline-run").find("true") != std::string::npos;
+  const bool complete = fs::exists(out / ".part/.plumbline-run");
   return complete && fs::exists(out / ".part" / name) ? out / ".part" / name : out / name;
 }
 
@@ -186,9 +186,7 @@ bool IsWhole(const fs::path& out, const fs::path& whole) {
 // Killed at any moment, the folder has the earlier results whole, or the new ones.
 // Whether the next run tells of what a killed one left: all results, or at least one frame.
 bool IsToldOf(const fs::path& part) {
-  if (!fs::exists(part / ".plumbline-run")) return false;
-  const auto manifest = nlohmann::json::parse(Contents(part / ".plumbline-run"));
-  if (manifest.at("complete").get<bool>()) return true;
+  if (fs::exists(part / ".plumbline-run")) return true;
   if (!fs::exists(part / "frames.csv")) return false;
   const std::string frames = Contents(part / "frames.csv");
   return std::count(frames.begin(), frames.end(), '\n') > 1;  // the first line names the columns

@@ -21,26 +21,27 @@ TEST(FolderLock, IsHeldByOneAtATime) {
   first.reset();
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
   const FolderLock again(folder.path(), "in use");
-  EXPECT_TRUE(again.IsInPlace());
+  EXPECT_TRUE(std::filesystem::exists(folder / ".plumbline-lock"));
 }
 
 TEST(FolderLock, TakesOverFromAProgramThatWasKilled) {
   const ScratchFolder folder;
   folder.Write(".plumbline-lock", "");
   const FolderLock lock(folder.path(), "in use");
-  EXPECT_TRUE(lock.IsInPlace());
+  EXPECT_THAT(MessageOf([&] { const FolderLock second(folder.path(), "in use"); }),
+              testing::EndsWith(": in use"));
 }
 
-TEST(FolderLock, KnowsThatItsFolderWasRemoved) {
+TEST(FolderLock, LeavesTheLockOfANewFolderOfThisName) {
   const ScratchFolder folder;
   std::filesystem::create_directory(folder / "a");
-  const FolderLock lock(folder / "a", "in use");
+  std::optional<FolderLock> lock;
+  lock.emplace(folder / "a", "in use");
   std::filesystem::remove_all(folder / "a");
-  EXPECT_FALSE(lock.IsInPlace());
   std::filesystem::create_directory(folder / "a");
   const FolderLock other(folder / "a", "in use");
-  EXPECT_FALSE(lock.IsInPlace());
-  EXPECT_TRUE(other.IsInPlace());
+  lock.reset();
+  EXPECT_TRUE(std::filesystem::exists(folder / "a/.plumbline-lock"));
 }
 
 TEST(FolderLock, SaysWhereItCannotBeMade) {
