@@ -107,81 +107,27 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view con
   file.Commit();
 }
 
-namespace {
-
-// Keeps a file under a second name while another one takes its place.
-class KeptFile {
- public:
-  explicit KeptFile(std::filesystem::path path) : path_(std::move(path)) {
-    kept_ =
-        path_.parent_path() /
-        fmt::format(".{}.{}.old{}", path_.stem().string(), ::getpid(), path_.extension().string());
-    std::error_code error;
-    there_ = std::filesystem::exists(path_, error);
-    // Some file systems have no hard links: then the replaced file is lost.
-    if (there_) std::filesystem::create_hard_link(path_, kept_, error);
-    is_kept_ = there_ && !error;
-  }
-  KeptFile(const KeptFile&) = delete;
-  KeptFile& operator=(const KeptFile&) = delete;
-  ~KeptFile() {
-    std::error_code ignored;
-    if (is_kept_) std::filesystem::remove(kept_, ignored);
-  }
-
-  // Restores the earlier file; removes the new one if there was none.
-  void PutBack() {
-    std::error_code ignored;
-    if (!there_) std::filesystem::remove(path_, ignored);
-    if (is_kept_) std::filesystem::rename(kept_, path_, ignored);
-  }
-
- private:
-  std::filesystem::path path_, kept_;
-  bool there_ = false, is_kept_ = false;
-};
-
-}  // namespace
-
 void WriteFilesAtomically(const std::vector<FileContents>& files) {
   std::list<AtomicFileWriter> writers;
   for (const FileContents& file : files) {
     writers.emplace_back(file.path).Write(file.contents);
     writers.back().Close();
   }
-  std::list<KeptFile> replaced;
-  std::size_t next = 0;
-  try {
-    for (AtomicFileWriter& writer : writers) {
-      replaced.emplace_back(files[next++].path);
-      writer.Commit();
-    }
-  } catch (...) {
-    replaced.pop_back();  // that of the file that failed, which is as it was
-    for (KeptFile& before : replaced) before.PutBack();
-    throw;
-  }
+  for (AtomicFileWriter& writer : writers) writer.Commit();
 }
 
 void CheckWritable(const std::filesystem::path& path) { const AtomicFileWriter begun(path); }
 
 namespace {
 
-// The name under which the process of this number fills a folder.
-std::string TemporaryName(const std::filesystem::path& folder, const std::string& process) {
-  return fmt::format(".{}.{}.tmp", folder.filename().string(), process);
-}
-
-// Returns true if a folder has files other than those left by a program killed while it filled it.
+// Returns true if a folder has other files than hidden ones: those of the system, and what a
+// program left that was killed while it filled the folder.
 bool HoldsFiles(const std::filesystem::path& folder) {
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    const std::string_view before = std::string_view(name).substr(0, name.rfind(".tmp"));
-    const std::string process(before.substr(before.find_last_not_of("0123456789") + 1));
-    if (process.empty() || name != TemporaryName(folder, process)) return true;
-  }
-  return false;
+  const std::filesystem::directory_iterator entries(folder, error);
+  return std::any_of(begin(entries), end(entries), [](const auto& entry) {
+    return entry.path().filename().string().front() != '.';
+  });
 }
 
 }  // namespace
@@ -199,7 +145,7 @@ AtomicFolder::AtomicFolder(const std::filesystem::path& path) : path_(path.lexic
   }
   if (!is_there_ && path_.has_parent_path()) MakeFolder(path_.parent_path());
   const std::filesystem::path above = is_there_ ? path_ : path_.parent_path();
-  temporary_ = above / TemporaryName(path_, std::to_string(::getpid()));
+  temporary_ = above / fmt::format(".{}.{}.tmp", path_.filename().string(), ::getpid());
   MakeFolder(temporary_);
 }
 

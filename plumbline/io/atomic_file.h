@@ -77,8 +77,7 @@ struct FileContents {
 };
 
 // Writes several files or none, each like WriteFileAtomically: all are complete under temporary
-// names before the first gets its own. If one cannot get its name (another user's file in a shared
-// folder), those before it are restored. Throws WriteError.
+// names before the first gets its own. Throws WriteError.
 void WriteFilesAtomically(const std::vector<FileContents>& files);
 
 // A new folder that appears whole or not at all: construct, let files be written below
@@ -87,8 +86,8 @@ void WriteFilesAtomically(const std::vector<FileContents>& files);
 // there: then temporary_path() is in it, and Commit() moves the files up one after the other.
 class AtomicFolder {
  public:
-  // Makes the folders above it. Throws InputError if something other than an empty folder exists at
-  // `path`, or the temporary folder cannot be made.
+  // Makes the folders above it. Throws InputError if something other than a folder without files
+  // (hidden ones stay) exists at `path`, or the temporary folder cannot be made.
   explicit AtomicFolder(const std::filesystem::path& path);
   AtomicFolder(const AtomicFolder&) = delete;
   AtomicFolder& operator=(const AtomicFolder&) = delete;
