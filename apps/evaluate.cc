@@ -298,7 +298,7 @@ int EvaluateCommand(std::span<const std::string> arguments) {
   const EvaluateOutputs outputs = ReadOutputs(line, names);
   const ReferenceTrajectory reference = LoadReferenceFor(line, line.Positional(0));
   for (const std::string& note : reference.notes) {
-    std::cerr << "plumbline: " << Printable(note, kLongestMessage) << '\n';
+    std::clog << "plumbline: " << Printable(note, kLongestMessage) << '\n';
   }
   std::vector<std::filesystem::path> read;
   for (const std::string& path : paths) read.push_back(EstimateFile(path));

@@ -136,7 +136,7 @@ std::unique_ptr<JobExecutor> MakeExecutor(const CommandLine& line, int jobs) {
 
 void SayMissing(const Plan& plan, bool quiet) {
   for (const std::string& missing : plan.missing) {
-    if (!quiet) std::cerr << "plumbline: no sequence " << missing << " found; left out\n";
+    if (!quiet) std::clog << "plumbline: no sequence " << missing << " found; left out\n";
   }
 }
 
@@ -208,7 +208,7 @@ std::string SayRuns(std::size_t runs, std::size_t failed, const fs::path& out) {
 // Returns the exit code for these runs: 1, with a line on stderr, if none succeeded.
 int CheckSomeSucceeded(std::size_t runs, std::size_t failed, const fs::path& out) {
   if (runs == 0 || failed < runs) return 0;
-  std::cerr << "plumbline: no run succeeded; " << (out / "table.md").string() << " says why\n";
+  std::clog << "plumbline: no run succeeded; " << (out / "table.md").string() << " says why\n";
   return 1;
 }
 
@@ -223,7 +223,7 @@ int CheckLimits(const Plan& plan, const std::vector<JobResult>& results, bool qu
       checks.begin(), checks.end(), [](const GateCheck& check) { return !check.kept; });
   if (!quiet) std::cout << text;
   if (broken > 0) {
-    std::cerr << fmt::format("plumbline: {} of {} limits are broken\n", broken, checks.size());
+    std::clog << fmt::format("plumbline: {} of {} limits are broken\n", broken, checks.size());
   }
   return broken > 0 ? 1 : 0;
 }

@@ -9,6 +9,7 @@
 #include "apps/commands.h"
 #include "apps/shortage.h"
 #include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <iomanip>
@@ -89,7 +90,7 @@ void PrintHelp(std::ostream& out) {
 
 int Dispatch(std::span<const std::string> arguments) {
   if (arguments.empty()) {
-    PrintHelp(std::cerr);
+    PrintHelp(std::clog);
     return 2;
   }
   const std::string& name = arguments.front();
@@ -136,11 +137,25 @@ void CatchTermination() { terminate_before = std::set_terminate(SayOutOfMemory);
 // Functions in this section are called before the libraries initialize themselves.
 [[gnu::section(".preinit_array"), gnu::used]] void (*const kBeforeLibraries)() = CatchTermination;
 
+// Libraries that decode images and videos write to standard error on their own ("libpng warning:
+// ...", "moov atom not found"), without the name of the file and beside the program's message. What
+// they write to `stderr` and std::cerr is dropped, unless the environment sets the level of
+// OpenCV's log. The program itself writes to std::clog, which keeps the stream.
+void DropMessagesOfLibraries() {
+  std::clog.tie(&std::cout);
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): there is one thread yet
+  if (std::getenv("OPENCV_LOG_LEVEL") != nullptr) return;
+  std::cerr.rdbuf(nullptr);
+  std::FILE* const nowhere = std::fopen("/dev/null", "w");
+  if (nowhere != nullptr) stderr = nowhere;
+}
+
 }  // namespace
 }  // namespace plumbline
 
 int main(int argc, char** argv) {
   plumbline::OpenStandardStreams();
+  plumbline::DropMessagesOfLibraries();
   plumbline::SetUpProcess();
   try {
     const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
@@ -148,15 +163,15 @@ int main(int argc, char** argv) {
     if (!std::cout.flush()) throw plumbline::InputError("cannot write to standard output");
     return code;
   } catch (const plumbline::InputError& error) {
-    std::cerr << "plumbline: " << plumbline::Printable(error.what(), plumbline::kLongestMessage)
+    std::clog << "plumbline: " << plumbline::Printable(error.what(), plumbline::kLongestMessage)
               << "\n";
     return 2;
   } catch (const std::exception& error) {
     if (const char* shortage = plumbline::ShortageOf(error)) {
-      std::cerr << "plumbline: " << shortage << "\n";
+      std::clog << "plumbline: " << shortage << "\n";
       return 2;
     }
-    std::cerr << "plumbline: internal error: "
+    std::clog << "plumbline: internal error: "
               << plumbline::Printable(error.what(), plumbline::kLongestMessage) << "\n";
     return 1;
   }

@@ -109,7 +109,7 @@ std::optional<std::string> Export(const CommandLine& line, const ExportRequest& 
   SavedAtlas atlas = LoadAtlas(name);
   const SlamOptions options = SavedOptionsOrDefault(
       atlas.context, name, "lines as by default", [](const std::string& text) {
-        std::cerr << text << '\n';
+        std::clog << text << '\n';
       });
   const SavedMap saved =
       SavedMapOf(std::move(ChooseMap(line, atlas.atlas)), atlas.context, atlas.file_version);
@@ -142,7 +142,7 @@ int MapExportCommand(std::span<const std::string> arguments) {
   CatchStopSignals();
   const std::optional<std::string> written = Export(line, request);
   if (!written) {
-    std::cerr << "plumbline: stopped; nothing is written\n";
+    std::clog << "plumbline: stopped; nothing is written\n";
     return FirstStopSignal()->exit_code;
   }
   std::cout << fmt::format("{}: {}\n", request.out.string(), *written);

@@ -130,7 +130,7 @@ int MapMergeCommand(std::span<const std::string> arguments) {
   const NamedAtlas second{request.second, LoadAtlas(request.second)};
   const MergedAtlases merged = MergeAtlases(
       std::move(first), second, request.first_from_second, [](const std::string& remark) {
-        std::cerr << remark << '\n';
+        std::clog << remark << '\n';
       });
   if (!request.first_from_second) PrintOverlap(merged);
   SaveAtlas(request.out, merged.saved.atlas, merged.saved.context);

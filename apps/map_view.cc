@@ -58,7 +58,7 @@ int MapViewCommand(std::span<const std::string> arguments) {
   run.camera = saved.context.camera;
   run.saved_map = true;
   Viewer viewer(options, run, std::nullopt, [&](ShownId id) { return PictureOf(saved.atlas, id); });
-  std::cerr << "plumbline: view at " << viewer.url() << " (Ctrl-C ends it)\n";
+  std::clog << "plumbline: view at " << viewer.url() << " (Ctrl-C ends it)\n";
   CatchStopSignals();
   while (!StopRequested()) {
     if (viewer.WantsMaps(false)) viewer.ReadMaps(saved.atlas, {});

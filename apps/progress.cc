@@ -44,7 +44,7 @@ void ProgressLine::Show(std::size_t done, std::size_t total, const std::string& 
   const auto interval = terminal_ ? Clock::duration(kBarEvery) : Clock::duration(kLineEvery);
   if (quiet_ || (!last && now - shown_ < interval)) return;
   shown_ = now;
-  std::cerr << (terminal_ ? '\r' + OneLine(Bar(done, total) + text) + (last ? "\n" : "")
+  std::clog << (terminal_ ? '\r' + OneLine(Bar(done, total) + text) + (last ? "\n" : "")
                           : text + '\n')
             << std::flush;
 }
@@ -54,15 +54,15 @@ void ProgressLine::ShowOpen(const std::string& text) {
   const auto interval = terminal_ ? Clock::duration(kBarEvery) : Clock::duration(kLineEvery);
   if (quiet_ || now - shown_ < interval) return;
   shown_ = now;
-  std::cerr << (terminal_ ? '\r' + OneLine(text) : text + '\n') << std::flush;
+  std::clog << (terminal_ ? '\r' + OneLine(text) : text + '\n') << std::flush;
 }
 
 void ProgressLine::End() const {
-  if (!quiet_ && terminal_) std::cerr << std::endl;
+  if (!quiet_ && terminal_) std::clog << std::endl;
 }
 
 void ProgressLine::Say(const std::string& message) const {
-  std::cerr << (terminal_ ? "\n" : "") +
+  std::clog << (terminal_ ? "\n" : "") +
                    ("plumbline: " + Printable(message, kLongestMessage) + '\n');
 }
 

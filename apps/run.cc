@@ -222,7 +222,7 @@ RunFrames OpenLive(const CommandLine& line, const RunSetup& setup) {
 
 // Reports a note of a run beside its results, in one line.
 void Say(const std::string& note) {
-  std::cerr << "plumbline: " << Printable(note, kLongestMessage) << '\n';
+  std::clog << "plumbline: " << Printable(note, kLongestMessage) << '\n';
 }
 
 // Opens a recording. If it lacks the sensor of the preset, the message names the preset.
@@ -310,7 +310,7 @@ void OpenViewer(const CommandLine& line, const RunSetup& setup, System& system, 
   input.viewer = std::make_shared<Viewer>(
       setup.view, std::move(run), SessionId{static_cast<std::int64_t>(sessions)});
   if (setup.view.access && !setup.quiet) {
-    std::cerr << "plumbline: view at " << input.viewer->url() << '\n';
+    std::clog << "plumbline: view at " << input.viewer->url() << '\n';
   }
 }
 
@@ -368,7 +368,7 @@ void Print(const System& system, const Dataset& dataset, const std::filesystem::
 // if a signal has ended the run.
 void KeepShowing(const CommandLine& line, const System& system, Viewer& viewer, bool quiet) {
   if (!line.Has("--stay") || FirstStopSignal()) return;
-  if (!quiet) std::cerr << "plumbline: the view stays at " << viewer.url() << " (Ctrl-C ends it)\n";
+  if (!quiet) std::clog << "plumbline: the view stays at " << viewer.url() << " (Ctrl-C ends it)\n";
   while (!StopRequested() && !viewer.TakeFailure()) {
     if (viewer.WantsMaps(false)) viewer.ReadMaps(system.atlas(), system.events());
     std::this_thread::sleep_for(kLookStep);
@@ -416,7 +416,7 @@ int RunCommand(std::span<const std::string> arguments) {
   KeptViews views(input);
   const Processed processed = ProcessFrames(input, setup.quiet, system, folder, views);
   if (system.frames().empty() && FirstStopSignal()) {
-    std::cerr << "plumbline: stopped before the first frame; nothing is written\n";
+    std::clog << "plumbline: stopped before the first frame; nothing is written\n";
     return FirstStopSignal()->exit_code;
   }
   if (input.live != nullptr) NoteFrames(system, input);

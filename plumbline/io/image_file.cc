@@ -7,7 +7,6 @@
 #include "plumbline/image/image_codecs.h"
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/image/opencv_modules.h"
-#include "plumbline/io/decoder_messages.h"
 
 #include <algorithm>
 #include <array>
@@ -99,7 +98,6 @@ std::optional<std::string> WebpDamage(Bytes bytes) {
 // Decodes an image; the result is empty when the decoder refuses. `flags` are those of
 // cv::imdecode, for files that are not decoded here.
 cv::Mat Decode(Bytes bytes, int flags) {
-  const DecoderCall call;
   cv::Mat image;
   if (IsPng(bytes)) image = DecodePng(bytes);
   if (IsJpeg(bytes)) image = DecodeJpeg(bytes);

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/process_settings.h"
 
-#include "plumbline/io/decoder_messages.h"
-
 #include <csignal>
 
 #include <malloc.h>
@@ -12,7 +10,6 @@
 namespace plumbline {
 
 void SetUpProcess() {
-  DropDecoderMessages();
   std::signal(SIGXFSZ, SIG_IGN);
   cv::setNumThreads(1);
 #ifdef __GLIBC__

@@ -11,7 +11,6 @@ namespace plumbline {
 // - OpenCV uses one thread: the library distributes the work itself, and OpenCV's threads would
 //   interfere with its stages.
 // - The allocator keeps the memory of images for the next ones (glibc only): a tenth of the time.
-// - Decoders of images and videos do not write to standard error (DropDecoderMessages).
 // - A write beyond the file size limit of the process fails (an InputError) instead of raising a
 //   signal that ends the program.
 void SetUpProcess();

@@ -7,7 +7,6 @@
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/image/opencv_modules.h"
 #include "plumbline/io/camera_file.h"
-#include "plumbline/io/decoder_messages.h"
 #include "plumbline/io/frame_preparation.h"
 #include "plumbline/io/ground_truth.h"
 #include "plumbline/io/image_dataset.h"
@@ -32,7 +31,6 @@ namespace {
 namespace fs = std::filesystem;
 
 std::unique_ptr<VideoDecoder> OpenDecoder(const fs::path& path) {
-  const DecoderCall call;
   std::unique_ptr<VideoDecoder> decoder = LoadOpenCvModules().OpenVideo(path.string());
   if (decoder == nullptr) {
     throw InputError(path.string() +
@@ -121,7 +119,6 @@ void UseTimes(const fs::path& path, const ShownAt& times, VideoContent& content)
 }
 
 VideoContent Scan(const fs::path& path) {
-  const DecoderCall call;
   const std::unique_ptr<VideoDecoder> decoder = OpenDecoder(path);
   VideoContent content;
   double& rate_hz = content.properties.rate_hz;
@@ -187,7 +184,6 @@ class VideoDataset : public Dataset {
   // Returns the frame in blue, green and red, of 8 bits.
   Expected<cv::Mat, ImageFailure> Decode(std::size_t i) const {
     const std::lock_guard lock(mutex_);
-    const DecoderCall call;
     if (frames_.at(i) < next_) {
       decoder_ = OpenDecoder(info().path);
       next_ = 0;

@@ -4,7 +4,6 @@
 
 #include "plumbline/base/printable.h"
 #include "plumbline/image/opencv_modules.h"
-#include "plumbline/io/decoder_messages.h"
 
 #include <algorithm>
 #include <charconv>
@@ -43,7 +42,6 @@ bool OpenDevice(VideoCapture& capture, const std::string& device, const ImageSiz
 }
 
 bool OpenAs(LiveKind kind, VideoCapture& capture, const std::string& what, const ImageSize* size) {
-  const DecoderCall call;
   try {
     switch (kind) {
       case LiveKind::kCamera:
@@ -151,7 +149,6 @@ bool CaptureDevices::Open() {
 }
 
 std::optional<CapturedImages> CaptureDevices::Take() {
-  const DecoderCall call;
   CapturedImages taken;
   try {
     for (const auto& capture : captures_) {

@@ -189,6 +189,23 @@ TEST(ToleratedInput, UnreadableImagesAndMissingPartnersAreNamedAndLeftOut) {
   EXPECT_FALSE(fs::exists(folder / "played/overlay_000005.png"));
 }
 
+// The libraries that decode them write to standard error as well: one through std::cerr, one
+// through the stream of C.
+TEST(ToleratedInput, ADamagedImageIsOneLine) {
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 8);
+  folder.Write("sequence/mav0/cam0/data/3.png", "P5\n400 300\n255\nfew");
+  std::string damaged = Contents(folder / "sequence/mav0/cam0/data/5.png");
+  damaged[damaged.size() / 2] = static_cast<char>(~damaged[damaged.size() / 2]);
+  folder.Write("sequence/mav0/cam0/data/5.png", damaged);
+  const Outcome outcome =
+      RunProgram(folder, "run " + Quoted(sequence) + " --quiet --out " + Quoted(folder / "out"));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, StartsWith("frame 3 skipped: "));
+  EXPECT_THAT(outcome.err, HasSubstr("\nframe 5 skipped: "));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 2) << outcome.err;
+}
+
 // Results that exist are written, but nobody may take them for a map.
 TEST(ToleratedInput, ARunWithoutAnyPoseFails) {
   const ScratchFolder folder;
