@@ -14,16 +14,13 @@
 #include <exception>
 #include <iomanip>
 #include <iostream>
-#include <new>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <typeinfo>
 #include <utility>
 #include <vector>
 
-#include <cxxabi.h>
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -118,24 +115,6 @@ void OpenStandardStreams() {
     if (::open("/dev/null", O_RDWR) != descriptor) return;
   }
 }
-
-std::terminate_handler terminate_before = nullptr;
-
-// Exceptions of a library while it is loaded, or in its own threads, are not caught.
-[[noreturn]] void SayOutOfMemory() {
-  const std::type_info* thrown = abi::__cxa_current_exception_type();
-  if (thrown != nullptr && *thrown == typeid(std::bad_alloc)) {
-    constexpr std::string_view kWords = "plumbline: out of memory\n";
-    if (::write(STDERR_FILENO, kWords.data(), kWords.size()) >= 0) ::_exit(1);
-  }
-  if (terminate_before != nullptr) terminate_before();
-  std::abort();
-}
-
-void CatchTermination() { terminate_before = std::set_terminate(SayOutOfMemory); }
-
-// Functions in this section are called before the libraries initialize themselves.
-[[gnu::section(".preinit_array"), gnu::used]] void (*const kBeforeLibraries)() = CatchTermination;
 
 // Libraries that decode images and videos write to standard error on their own ("libpng warning:
 // ...", "moov atom not found"), without the name of the file and beside the program's message. What

@@ -211,7 +211,6 @@ class FrameFeed {
     try {
       step();
     } catch (const std::exception& error) {
-      reserve_.Release();
       if (result_.failure) return;
       result_.failure = std::current_exception();
       shortage_ = ShortageOf(error);
@@ -241,7 +240,6 @@ class FrameFeed {
   Processed result_;
   int without_depth_ = 0;           // depth images that were looked at
   const char* shortage_ = nullptr;  // that result_.failure is about, while it has no name
-  MemoryReserve reserve_;
   Progress progress_;
   RunJournal journal_;
   std::shared_ptr<MapSaver> saver_;  // null if nothing is saved before the end

@@ -2,18 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/shortage.h"
 
-#include <cstddef>
 #include <new>
 #include <system_error>
 
 #include <opencv2/core.hpp>
 
 namespace plumbline {
-namespace {
-
-constexpr std::size_t kReserveBytes = std::size_t{64} << 20;
-
-}  // namespace
 
 const char* ShortageOf(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return "out of memory";
@@ -27,8 +21,5 @@ const char* ShortageOf(const std::exception& error) {
   }
   return system->code() == std::errc::not_enough_memory ? "out of memory" : nullptr;
 }
-
-// Untouched pages are not backed by memory.
-MemoryReserve::MemoryReserve() : space_(new char[kReserveBytes]) {}
 
 }  // namespace plumbline

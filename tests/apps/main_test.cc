@@ -175,27 +175,5 @@ TEST(Program, InfoTellsOfAMissingCamera) {
               HasSubstr("fx 481.2"));
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-// Returns the exit code, as shells tell it: 134 for SIGABRT.
-int CodeWith(int kilobytes) {
-  const std::string command = "(ulimit -c 0; ulimit -v " + std::to_string(kilobytes) +
-                              "; '" PLUMBLINE_BINARY "' --version) > /dev/null 2>&1";
-  const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe)
-  return WEXITSTATUS(status);
-}
-
-// Libraries need memory before main(). Less than that, and they cannot be loaded (127).
-TEST(Program, TooLittleMemoryToBeginWithIsNoCrash) {
-  constexpr int kStep = 4096, kMost = 1 << 20;
-  int enough = 64 << 10;
-  while (enough < kMost && CodeWith(enough) != 0) enough += kStep;
-  ASSERT_LT(enough, kMost);
-  for (int kilobytes = enough - 2 * kStep; kilobytes < enough; kilobytes += 200) {
-    const int code = CodeWith(kilobytes);
-    EXPECT_TRUE(code == 0 || code == 1 || code == 127) << kilobytes << " kB: " << code;
-  }
-}
-#endif
-
 }  // namespace
 }  // namespace plumbline
