@@ -3,6 +3,7 @@
 #include "apps/frame_input.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/live/call_or_abandon.h"
 
 #include <algorithm>
 #include <thread>
@@ -34,8 +35,7 @@ RecordedInput::RecordedInput(std::shared_ptr<const Dataset> dataset,
     : dataset_(std::move(dataset)),
       frames_(std::move(frames)),
       live_(mode == RunMode::kLive),
-      say_(std::move(say)),
-      reader_(dataset_) {}
+      say_(std::move(say)) {}
 
 std::optional<InputFrame> RecordedInput::Next(const GoOn& go_on) {
   if (position_ >= frames_.size() || !go_on()) return std::nullopt;
@@ -44,32 +44,26 @@ std::optional<InputFrame> RecordedInput::Next(const GoOn& go_on) {
   const std::int64_t stamp_ns = dataset_->stamp_ns(k);
   if (live_ && !WaitUntil(schedule_.ReadAt(stamp_ns), go_on)) return std::nullopt;
   const Clock::time_point begin = Clock::now();
-  const auto read = reader_.Read(k, go_on);
-  if (!read) return std::nullopt;
+  auto read = dataset_->Read(k);
   const Clock::time_point due = schedule_.DueOnceRead(stamp_ns, begin, Clock::now());
   if (!(live_ ? WaitUntil(due, go_on) : go_on())) return std::nullopt;
   InputFrame next{stamp_ns, std::nullopt, ""};
-  if (*read) {
-    next.frame = **read;
+  if (read) {
+    next.frame = std::move(*read);
     return next;
   }
-  const ImageFailure& failure = read->error();
+  const ImageFailure& failure = read.error();
   say_(fmt::format("frame {} skipped: {}: {}", position, failure.path.string(), failure.why));
   next.reason = "image_unreadable";
   return next;
 }
 
-LiveInput::LiveInput(const std::shared_ptr<LiveSource>& source,
-                     const FrameSelection& range,
-                     Say say)
-    : name_(source->info().name),
-      range_(range),
-      say_(std::move(say)),
-      reader_([source](std::size_t) { return source->Next(); }) {}
+LiveInput::LiveInput(std::shared_ptr<LiveSource> source, const FrameSelection& range, Say say)
+    : name_(source->info().name), range_(range), say_(std::move(say)), source_(std::move(source)) {}
 
 std::optional<InputFrame> LiveInput::Next(const GoOn& go_on) {
   while (go_on() && next_ < range_.to) {
-    std::optional<LiveEvent> event = reader_.Read(next_, go_on);
+    auto event = CallOrAbandon<LiveEvent>([source = source_] { return source->Next(); }, go_on);
     if (!event) return std::nullopt;
     if (const auto* end = std::get_if<SourceEnd>(&*event)) {
       if (next_ == 0) throw InputError(name_ + ": expected frames, found none");

@@ -9,8 +9,6 @@
 #include "plumbline/report/playback_schedule.h"
 #include "plumbline/slam/options.h"
 
-#include "apps/frame_reader.h"
-#include "apps/patient_reader.h"
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -49,7 +47,7 @@ class FrameInput {
 };
 
 // Selected frames of a recording, by index. Live runs get them when they are due, at their original
-// intervals; others as soon as they are read.
+// intervals; others as soon as they are read. `go_on` is not called while an image is read.
 class RecordedInput : public FrameInput {
  public:
   RecordedInput(std::shared_ptr<const Dataset> dataset,
@@ -66,7 +64,6 @@ class RecordedInput : public FrameInput {
   bool live_;
   Say say_;
   PlaybackSchedule schedule_;
-  FrameReader reader_;
 };
 
 // Selected frames of a source: every stride-th from `from` to before `to`.
@@ -76,10 +73,11 @@ struct FrameSelection {
   std::size_t stride = 1;
 };
 
-// Frames of a live source with increasing stamps (StampContinuity).
+// Frames of a live source with increasing stamps (StampContinuity). A source that does not answer
+// is abandoned once `go_on` returns false (CallOrAbandon).
 class LiveInput : public FrameInput {
  public:
-  LiveInput(const std::shared_ptr<LiveSource>& source, const FrameSelection& range, Say say);
+  LiveInput(std::shared_ptr<LiveSource> source, const FrameSelection& range, Say say);
   // Throws InputError if the source ends before its first frame.
   std::optional<InputFrame> Next(const GoOn& go_on) override;
 
@@ -96,7 +94,7 @@ class LiveInput : public FrameInput {
   std::string last_why_;
   std::size_t alike_ = 0;  // successive selected frames with this reason
   StampContinuity continuity_;
-  PatientReader<LiveEvent> reader_;
+  std::shared_ptr<LiveSource> source_;
 };
 
 }  // namespace plumbline

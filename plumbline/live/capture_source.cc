@@ -5,11 +5,11 @@
 #include "plumbline/base/printable.h"
 #include "plumbline/image/opencv_modules.h"
 #include "plumbline/io/raw_pixels.h"
+#include "plumbline/live/call_or_abandon.h"
 #include "plumbline/live/capture_devices.h"
 #include "plumbline/live/live_camera.h"
 
 #include <chrono>
-#include <future>
 #include <memory>
 #include <thread>
 #include <utility>
@@ -40,21 +40,21 @@ struct Opened {
   std::optional<CapturedImages> first;
 };
 
-// Opens a source within a time limit. GStreamer waits for ever for a pipeline that cannot start, so
-// that a thread opens it, which may be left behind.
+// Opens a source within a time limit: GStreamer waits for ever for a pipeline that cannot start.
 Opened OpenPatiently(const std::string& name,
                      LiveKind kind,
                      const std::vector<ImageSize>& sizes,
                      std::chrono::milliseconds patience) {
   LoadOpenCvModules();  // loaded here, since the program may end while that thread goes on
-  std::packaged_task<Opened()> open([name, kind, sizes] {
-    CaptureDevices devices(name, kind, sizes);
-    std::optional<CapturedImages> first = devices.Take();
-    return Opened{std::move(devices), std::move(first)};
-  });
-  std::future<Opened> opened = open.get_future();
-  std::thread(std::move(open)).detach();
-  if (opened.wait_for(patience) == std::future_status::ready) return opened.get();
+  const auto end = std::chrono::steady_clock::now() + patience;
+  auto opened = CallOrAbandon<Opened>(
+      [name, kind, sizes] {
+        CaptureDevices devices(name, kind, sizes);
+        std::optional<CapturedImages> first = devices.Take();
+        return Opened{std::move(devices), std::move(first)};
+      },
+      [end] { return std::chrono::steady_clock::now() < end; });
+  if (opened) return *std::move(opened);
   throw InputError(fmt::format(
       "{}: expected a first frame within {} s, found none{}",
       Printable(WithoutPassword(name), kLongestMessage),
