@@ -303,13 +303,18 @@ std::optional<EarlierRun> RunFolder::Earlier() const {
 
 void RunFolder::Commit() {
   MakeFolder(part_);
-  std::vector<std::string> names = {"trajectory_causal.txt", "frames.csv"};  // of the journal
+  std::vector<std::string> names = {"frames.csv"};
+  const std::vector<std::string> part = NamesIn(part_);
+  const auto is_causal = [](const auto& name) { return name.starts_with("trajectory_causal"); };
+  if (std::count_if(part.begin(), part.end(), is_causal) == 1) {
+    names.emplace_back("trajectory_causal.txt");
+  }
   for (const std::string& name : written_) {
     if (!Contains(names, name)) names.push_back(name);
   }
   std::erase_if(names, [&](const std::string& name) { return !IsTaken(part_ / name); });
   std::error_code ignored;
-  for (const std::string& name : NamesIn(part_)) {
+  for (const std::string& name : part) {
     if (IsOfPart(name) && !Contains(names, name)) fs::remove(part_ / name, ignored);
   }
   while (true) {

@@ -106,11 +106,12 @@ class RunFolder {
   // The earlier run whose results DIR has; nullopt where it has none with poses.
   std::optional<EarlierRun> Earlier() const;
 
-  // Makes the files that Write() wrote, and of the journal (RunJournal) poses and frames if Write()
-  // failed to write those, the results in DIR; removes the earlier run's files and the part. On a
-  // full disk the last files make room for the list. Throws InputError if that is impossible, for
-  // instance because a file with the name of a result appeared in DIR meanwhile; the files are then
-  // in the part, or some of them already in DIR.
+  // Makes the files that Write() wrote the results in DIR; removes the earlier run's files and the
+  // part. If Write() failed to write frames.csv, or the causal trajectory of a run with one map,
+  // those of the journal (RunJournal) are taken. On a full disk the last files make room for the
+  // list. Throws InputError if that is impossible, for instance because a file with the name of a
+  // result appeared in DIR meanwhile; the files are then in the part, or some of them already in
+  // DIR.
   void Commit();
 
  private:

@@ -3,95 +3,77 @@
 #include "plumbline/report/run_journal.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/geometry/trajectory.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/run_files.h"
 
-#include <algorithm>
+#include <cerrno>
+#include <fstream>
 #include <system_error>
 #include <utility>
 
 namespace plumbline {
 namespace {
 
-constexpr std::chrono::seconds kOftenest(1);
+constexpr std::chrono::seconds kInterval(1);
+
+// Appends rows to a file, all of them or none.
+void AppendRows(const std::filesystem::path& path, const std::string& rows) {
+  std::error_code none;
+  const std::uintmax_t before =
+      std::filesystem::exists(path, none) ? std::filesystem::file_size(path, none) : 0;
+  errno = 0;
+  std::ofstream file(path, std::ios::binary | std::ios::app);
+  file << rows << std::flush;
+  if (file) return;
+  const std::error_code why(errno, std::generic_category());
+  file.close();
+  std::filesystem::resize_file(path, before, none);
+  throw WriteError(path, why);
+}
 
 }  // namespace
 
+RunJournal::RunJournal() {
+  const TrajectoryNames names;
+  new_ = {{"frames.csv", FormatFrames({})}, {names.causal, ""}, {names.keyframes, ""}};
+}
+
 void RunJournal::Add(const FrameRecord& record) {
-  FrameRecord copy = record;
-  copy.times.clear();
   const std::lock_guard lock(mutex_);
-  added_.push_back(std::move(copy));
-}
-
-void RunJournal::TakeIn(const std::vector<FrameRecord>& records) {
-  std::map<MapId, Trajectory> causal, keyframes;
-  for (FrameRecord record : records) {
-    if (record.status == FrameStatus::kTracked) ++maps_[record.map].frames;
-    if (const auto& pose = record.causal_world_from_camera) {
-      causal[record.map].push_back({record.stamp_ns, *pose});
-      if (record.keyframe) keyframes[record.map].push_back({record.stamp_ns, *pose});
-    }
-    frames_ += FormatFrameRow(record, record.map);
-  }
-  for (const auto& [map, poses] : causal) maps_[map].causal += FormatTum(poses);
-  for (const auto& [map, poses] : keyframes) maps_[map].keyframes += FormatTum(poses);
-}
-
-void RunJournal::WriteFiles(RunFolder& folder) {
-  MakeFolder(folder.part());
-  std::set<std::string> names;
-  const auto write = [&](const std::string& name, const std::string& text) {
-    WriteFileAtomically(folder.part() / name, text);
-    names.insert(name);
-  };
-  const auto main = std::max_element(maps_.begin(), maps_.end(), [](const auto& a, const auto& b) {
-    return a.second.frames < b.second.frames;
-  });
-  const MapText none;
-  write("frames.csv", FormatFrames({}) + frames_);
-  write(TrajectoryNames().causal, main == maps_.end() ? none.causal : main->second.causal);
-  for (auto map = maps_.begin(); map != maps_.end(); ++map) {
-    if (map != main) write(TrajectoryNames(map->first).causal, map->second.causal);
-  }
-  write(TrajectoryNames().keyframes, main == maps_.end() ? none.keyframes : main->second.keyframes);
-  for (auto map = maps_.begin(); map != maps_.end(); ++map) {
-    if (map != main) write(TrajectoryNames(map->first).keyframes, map->second.keyframes);
-  }
-  // The file of a map that has become the main one is not needed any more.
-  std::error_code ignored;
-  for (const std::string& name : written_) {
-    if (!names.contains(name)) std::filesystem::remove(folder.part() / name, ignored);
-  }
-  written_ = std::move(names);
+  new_["frames.csv"] += FormatFrameRow(record, record.map);
+  const auto& pose = record.causal_world_from_camera;
+  if (!pose) return;
+  if (!first_) first_ = record.map;
+  const TrajectoryNames names =
+      record.map == *first_ ? TrajectoryNames() : TrajectoryNames(record.map);
+  const std::string row = FormatTum({{record.stamp_ns, *pose}});
+  new_[names.causal] += row;
+  if (record.keyframe) new_[names.keyframes] += row;
 }
 
 std::optional<std::string> RunJournal::Write(RunFolder& folder) {
-  const auto start = Clock::now();
-  std::vector<FrameRecord> records;
+  Rows rows;
   {
     const std::lock_guard lock(mutex_);
-    records.swap(added_);
-  }
-  TakeIn(records);
-  std::optional<std::string> failure;
-  try {
-    WriteFiles(folder);
-  } catch (const InputError& error) {
-    if (!std::exchange(failed_, true)) failure = error.what();
+    rows.swap(new_);
   }
   last_ = Clock::now();
-  taken_ = last_ - start;
-  return failure;
+  try {
+    MakeFolder(folder.part());
+    for (; !rows.empty(); rows.erase(rows.begin())) {
+      AppendRows(folder.part() / rows.begin()->first, rows.begin()->second);
+    }
+  } catch (const InputError& error) {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [name, text] : rows) new_[name].insert(0, text);
+    if (!std::exchange(failed_, true)) return error.what();
+  }
+  return std::nullopt;
 }
 
 std::optional<std::string> RunJournal::WriteIfDue(RunFolder& folder, Clock::time_point now) {
-  constexpr int kShare = 20;
-  const auto interval = std::max<Clock::duration>(kShare * taken_, kOftenest);
-  if (now - last_ < interval) return std::nullopt;
-  return Write(folder);
+  return now - last_ < kInterval ? std::nullopt : Write(folder);
 }
 
 }  // namespace plumbline

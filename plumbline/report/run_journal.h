@@ -6,53 +6,43 @@
 #include "plumbline/slam/system.h"
 
 #include <chrono>
-#include <cstdint>
 #include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
-#include <vector>
 
 namespace plumbline {
 
-// Writes the current results of a run into the part of its folder, under the names of the results:
-// the causal trajectories, frames.csv, and keyframes with their first poses. If the program is
+// Writes what tracking reports into the part of a run's folder while the run goes on, under the
+// names of the results: causal trajectories, frames.csv, and keyframes with their first poses. The
+// plain names are those of the first map, others have the number of their map. If the program is
 // killed, only results since the last write are lost (WriteIfDue).
 //
-// Every file is written anew and renamed, so that each is always complete.
+// Rows are appended, all that are new to a file in one write: a kill leaves whole rows, unless it
+// hits that write between two pages of memory.
 class RunJournal {
  public:
   using Clock = std::chrono::steady_clock;
+
+  RunJournal();
 
   // Adds the record of the next frame as first reported. May be called in another thread than the
   // other functions.
   void Add(const FrameRecord& record);
 
-  // Writes everything. Returns the reason of a failure, only once; later calls try again and return
-  // nothing.
+  // Writes everything new. Returns the reason of a failure, only once; later calls try again and
+  // return nothing.
   std::optional<std::string> Write(RunFolder& folder);
-  // Writes if the last write was a second ago and twenty times its own duration: files grow with
-  // the run, and writing may take a twentieth of the time at most.
+  // Writes if the last write was a second ago.
   std::optional<std::string> WriteIfDue(RunFolder& folder, Clock::time_point now = Clock::now());
 
  private:
-  // The rows of the files of one map.
-  struct MapText {
-    std::string causal, keyframes;
-    int frames = 0;
-  };
-
-  void TakeIn(const std::vector<FrameRecord>& records);
-  void WriteFiles(RunFolder& folder);
+  using Rows = std::map<std::string, std::string>;  // by file
 
   std::mutex mutex_;
-  std::vector<FrameRecord> added_;  // since the last Write; guarded by mutex_
-  std::string frames_;
-  std::map<MapId, MapText> maps_;
-  std::set<std::string> written_;  // names of written files
+  Rows new_;  // not yet written; guarded by mutex_
+  std::optional<MapId> first_;
   Clock::time_point last_ = Clock::now();
-  Clock::duration taken_{};  // duration of the last Write
   bool failed_ = false;
 };
 

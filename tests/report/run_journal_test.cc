@@ -6,12 +6,13 @@
 
 #include "tests/io/scratch_folder.h"
 #include "tests/report/poster_run.h"
-#include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 namespace plumbline {
 namespace {
@@ -51,7 +52,7 @@ TEST(RunJournal, IsTheCausalTrajectoryAndTheTableOfARun) {
   EXPECT_GT(Contents(folder.part() / "keyframes.txt").size(), 50U);
 }
 
-TEST(RunJournal, GrowsAndIsWholeEachTime) {
+TEST(RunJournal, GrowsByWhatIsNew) {
   const ScratchFolder scratch;
   RunFolder folder(scratch / "out");
   RunJournal journal;
@@ -67,19 +68,19 @@ TEST(RunJournal, GrowsAndIsWholeEachTime) {
   EXPECT_EQ(Contents(folder.part() / "keyframes.txt"), Row(1));
 }
 
-TEST(RunJournal, ThePlainNamesGoToTheMapWithMostFrames) {
+TEST(RunJournal, ThePlainNamesGoToTheFirstMap) {
   const ScratchFolder scratch;
   RunFolder folder(scratch / "out");
   RunJournal journal;
-  for (const int i : {1, 2}) journal.Add(Tracked(i, 0));
-  journal.Add(Tracked(3, 1));
+  journal.Add(Tracked(1, 3, true));
+  journal.Add(Tracked(2, 4));
   journal.Write(folder);
-  EXPECT_EQ(Contents(folder.part() / "trajectory_causal_map1.txt"), Row(3));
-  for (const int i : {4, 5}) journal.Add(Tracked(i, 1));
+  journal.Add(Tracked(3, 4, true));
   journal.Write(folder);
-  EXPECT_EQ(Contents(folder.part() / "trajectory_causal.txt"), Row(3) + Row(4) + Row(5));
-  EXPECT_EQ(Contents(folder.part() / "trajectory_causal_map0.txt"), Row(1) + Row(2));
-  EXPECT_FALSE(fs::exists(folder.part() / "trajectory_causal_map1.txt"));
+  EXPECT_EQ(Contents(folder.part() / "trajectory_causal.txt"), Row(1));
+  EXPECT_EQ(Contents(folder.part() / "trajectory_causal_map4.txt"), Row(2) + Row(3));
+  EXPECT_EQ(Contents(folder.part() / "keyframes.txt"), Row(1));
+  EXPECT_EQ(Contents(folder.part() / "keyframes_map4.txt"), Row(3));
 }
 
 TEST(RunJournal, IsWrittenAgainAfterAWhile) {
@@ -104,7 +105,7 @@ TEST(RunJournal, ComesBackAfterItsFolderWasRemoved) {
   fs::remove_all(scratch / "out");
   journal.Add(Tracked(2));
   EXPECT_FALSE(journal.Write(folder));
-  EXPECT_EQ(Contents(folder.part() / "trajectory_causal.txt"), Row(1) + Row(2));
+  EXPECT_EQ(Contents(folder.part() / "trajectory_causal.txt"), Row(2));
 }
 
 TEST(RunJournal, SaysOnceWhyItCannotBeWritten) {
@@ -116,8 +117,36 @@ TEST(RunJournal, SaysOnceWhyItCannotBeWritten) {
   EXPECT_THAT(journal.Write(folder).value_or(""), HasSubstr("trajectory_causal.txt"));
   EXPECT_FALSE(journal.Write(folder));
   fs::remove(folder.part() / "trajectory_causal.txt");
+  journal.Add(Tracked(2));
   journal.Write(folder);
-  EXPECT_EQ(Contents(folder.part() / "trajectory_causal.txt"), Row(1));
+  EXPECT_EQ(Contents(folder.part() / "trajectory_causal.txt"), Row(1) + Row(2));
+}
+
+// A limit on the size of files takes the part of a full disk.
+TEST(RunJournal, HasWholeRowsWhereTheDiskIsFull) {
+  const ScratchFolder scratch;
+  RunFolder folder(scratch / "out");
+  RunJournal journal;
+  std::string rows;
+  for (int i = 1; i <= 40; ++i) {
+    journal.Add(Tracked(i));
+    if (i > 20) continue;
+    rows += Row(i);
+    EXPECT_FALSE(journal.Write(folder));
+  }
+  const rlimit limit{rows.size() + 100, RLIM_INFINITY};
+  rlimit before{};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+  const auto failure = journal.Write(folder);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_THAT(failure.value_or(""), HasSubstr("File too large"));
+  EXPECT_EQ(Contents(folder.part() / "trajectory_causal.txt"), rows);
+  journal.Write(folder);
+  for (int i = 21; i <= 40; ++i) rows += Row(i);
+  EXPECT_EQ(Contents(folder.part() / "trajectory_causal.txt"), rows);
 }
 
 }  // namespace
