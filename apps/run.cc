@@ -287,7 +287,6 @@ void CheckRecording(const std::filesystem::path& file,
                     std::span<const RunInput> inputs) {
   CheckFileApart("--record", file, inputs);
   CheckFileApart("--record", McapFileWriter::PartOf(file), inputs);
-  McapFileWriter::CheckPart(file);
   CheckNoResult("--record", file, out);
   CheckReplaceable(file);
   const std::string beginning = McapFileWriter::Beginning();

@@ -116,33 +116,28 @@ std::filesystem::path McapFileWriter::PartOf(const std::filesystem::path& path) 
   return path.string() + ".part";
 }
 
-void McapFileWriter::CheckPart(const std::filesystem::path& path) {
+std::optional<std::string> McapFileWriter::SetPartAside(const std::filesystem::path& path) {
   const std::filesystem::path part = PartOf(path);
-  if (!IsTaken(part)) return;
+  if (!IsTaken(part)) return std::nullopt;
   std::error_code error;
-  const auto refuse = [&](const std::string& found) {
+  const bool link = std::filesystem::is_symlink(part, error);
+  const bool file = !link && std::filesystem::is_regular_file(part, error);
+  // A part is empty if the program died before writing.
+  const bool ours =
+      file && (std::filesystem::file_size(part, error) == 0 || FileBeginsWith(part, Beginning()));
+  if (!ours) {
     throw InputError(
         fmt::format("{}: expected nothing, or a recording that was not completed, found {}; move "
                     "it away or record to another file",
                     part.string(),
-                    found));
-  };
-  if (std::filesystem::is_symlink(part, error)) refuse("a link");
-  if (!std::filesystem::is_regular_file(part, error)) refuse(KindOf(part));
-  // A part is empty if the program died before writing.
-  const bool empty = std::filesystem::file_size(part, error) == 0;
-  if (!empty && !FileBeginsWith(part, Beginning())) refuse("another file");
+                    link   ? "a link"
+                    : file ? "another file"
+                           : KindOf(part)));
+  }
   if (IsBeingWritten(part)) throw InputError(part.string() + ": another run is writing this file");
-}
-
-std::optional<std::string> McapFileWriter::SetPartAside(const std::filesystem::path& path) {
-  CheckPart(path);
-  const std::filesystem::path part = PartOf(path);
-  if (!IsTaken(part)) return std::nullopt;
   int k = 1;
   const auto kept = [&] { return fmt::format("{}-{}", part.string(), k); };
   while (IsTaken(kept())) ++k;
-  std::error_code error;
   std::filesystem::rename(part, kept(), error);
   if (error) throw InputError("cannot write " + kept() + ": " + error.message());
   return fmt::format("{}: an earlier run did not complete it; what it had recorded is in {}",

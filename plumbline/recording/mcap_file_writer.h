@@ -38,13 +38,10 @@ class McapFileWriter {
   // Returns the path of the growing part of the file `path`.
   static std::filesystem::path PartOf(const std::filesystem::path& path);
 
-  // Throws InputError with instructions if the path of the part is taken by anything other than the
-  // part of a program that died while writing: a link, a file of another kind, a file being written
-  // by another program. Changes nothing.
-  static void CheckPart(const std::filesystem::path& path);
-
-  // Moves an existing part to the first free name of FILE.part-1, FILE.part-2 ..., and returns a
-  // sentence about it; nullopt if there is none. Throws like CheckPart.
+  // Moves the part of a program that died while writing to the first free name of FILE.part-1,
+  // FILE.part-2 ..., and returns a sentence about it; nullopt if there is none. Throws InputError
+  // with instructions if anything else is there: a link, a file of another kind, a file being
+  // written by another program.
   static std::optional<std::string> SetPartAside(const std::filesystem::path& path);
 
   // Begins a file, and sets an existing part aside. Throws InputError if the file cannot be

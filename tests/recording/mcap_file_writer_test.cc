@@ -101,14 +101,11 @@ TEST(McapFileWriter, RefusesWhatIsNotItsOwnInThePlaceOfThePart) {
   const ScratchFolder folder;
   const std::filesystem::path path = folder / "a.mcap", part = folder / "a.mcap.part";
   const auto refused = [&](const std::string& found) {
-    for (const auto& call : {McapFileWriter::CheckPart,
-                             +[](const std::filesystem::path& at) { McapFileWriter file(at); }}) {
-      EXPECT_THAT(MessageOf([&] { call(path); }),
-                  testing::StartsWith(part.string() +
-                                      ": expected nothing, or a recording that was "
-                                      "not completed, found " +
-                                      found + "; move it"));
-    }
+    EXPECT_THAT(MessageOf([&] { McapFileWriter file(path); }),
+                testing::StartsWith(part.string() +
+                                    ": expected nothing, or a recording that was "
+                                    "not completed, found " +
+                                    found + "; move it"));
   };
   folder.Write("a.mcap.part", "mine");
   refused("another file");
@@ -130,10 +127,10 @@ TEST(McapFileWriter, RefusesWhatIsNotItsOwnInThePlaceOfThePart) {
 TEST(McapFileWriter, IsForOneProgramAtATime) {
   const ScratchFolder folder;
   McapFileWriter file(folder / "a.mcap");
-  EXPECT_THAT(MessageOf([&] { McapFileWriter::CheckPart(folder / "a.mcap"); }),
+  EXPECT_THAT(MessageOf([&] { McapFileWriter::SetPartAside(folder / "a.mcap"); }),
               testing::HasSubstr("another run is writing this file"));
   file.Close();
-  EXPECT_EQ(MessageOf([&] { McapFileWriter::CheckPart(folder / "a.mcap"); }), "no error");
+  EXPECT_EQ(MessageOf([&] { McapFileWriter::SetPartAside(folder / "a.mcap"); }), "no error");
 }
 
 }  // namespace
