@@ -3,7 +3,7 @@
 #include "apps/map_saver.h"
 
 #include "plumbline/io/map_io.h"
-#include "plumbline/mapping/outlier_removal.h"
+#include "plumbline/mapping/landmark_culling.h"
 
 #include <exception>
 #include <utility>

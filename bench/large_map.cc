@@ -16,7 +16,7 @@
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/local_mapper.h"
 #include "plumbline/mapping/parallel_lines.h"
-#include "plumbline/mapping/stereo_change.h"
+#include "plumbline/mapping/stereo_calibration.h"
 
 #include "long_drive.h"
 #include <algorithm>

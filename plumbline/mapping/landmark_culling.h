@@ -5,6 +5,7 @@
 #include "plumbline/map/map.h"
 #include "plumbline/map/recent_landmarks.h"
 #include "plumbline/mapping/options.h"
+#include "plumbline/matching/line_options.h"
 #include "plumbline/matching/projection_search.h"
 
 namespace plumbline {
@@ -26,5 +27,20 @@ MapEdit RemoveRedundantKeyFrames(const Map& map, KeyFrameId centre, const Cleanu
 // RemoveRedundantKeyFrames alone their number would grow without end. Landmarks that too few
 // keyframes show afterwards are removed, too. Visits the 30 closest keyframes.
 MapEdit RemoveRevisitedKeyFrames(const Map& map, KeyFrameId centre, const CleanupOptions& options);
+
+// Removes the outlier observations at the current poses of the keyframes: those whose whitened
+// residual (EvaluatePoint; EvaluateLine, left image or right) is longer than 4.
+//
+// Bundle adjustment classifies only the observations in its window. Keyframes that move later,
+// alone or with the whole map, move lines and leave outliers that no later window classifies; lines
+// without depth are in no window at all. So each landmark with an outlier is fitted again with
+// fixed poses (SolveLocalBa): to all of its observations, and then to the inliers, wherever most
+// agree. The others are removed. A landmark that loses some and keeps less than three is removed.
+// Landmarks without outliers are unchanged, bit by bit. Lines that keep
+// their ends (LineMethod::keeps_ends) keep them here: they move only as far as the line does.
+//
+// Returns the change of the map. Cost: one residual for each observation, and a small adjustment
+// for each landmark that has an outlier.
+MapEdit RemoveOutliers(const Map& map, const CameraAndPyramid& imaging, const LineOptions& lines);
 
 }  // namespace plumbline

@@ -4,9 +4,9 @@
 
 #include "plumbline/base/stop_check.h"
 #include "plumbline/map/map.h"
-#include "plumbline/mapping/line_map_options.h"
 #include "plumbline/mapping/line_observation_search.h"
 #include "plumbline/mapping/mapped_line.h"
+#include "plumbline/mapping/options.h"
 #include "plumbline/matching/projection_search.h"
 
 #include <vector>

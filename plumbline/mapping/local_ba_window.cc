@@ -4,7 +4,7 @@
 
 #include "plumbline/base/elementary.h"
 #include "plumbline/map/covisibility.h"
-#include "plumbline/mapping/line_interval.h"
+#include "plumbline/mapping/map_problem.h"
 #include "plumbline/mapping/parallel_lines.h"
 #include "plumbline/matching/line_information.h"
 

@@ -4,9 +4,9 @@
 
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/landmark_creation.h"
+#include "plumbline/mapping/landmark_culling.h"
 #include "plumbline/mapping/local_ba_window.h"
-#include "plumbline/mapping/outlier_removal.h"
-#include "plumbline/mapping/scale_of_map.h"
+#include "plumbline/mapping/map_problem.h"
 #include "plumbline/mapping/whole_map_adjustment.h"
 #include "plumbline/matching/fusion.h"
 #include "plumbline/optimization/pose_uncertainty.h"

@@ -2,7 +2,64 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/map_problem.h"
 
+#include "plumbline/base/median.h"
+#include "plumbline/geometry/plucker.h"
+#include "plumbline/geometry/trimming.h"
+#include "plumbline/matching/line_information.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
 namespace plumbline {
+namespace {
+
+// Returns the factor by which depths have changed, as the median over points; nullopt if there are
+// too few of them.
+std::optional<double> ScaleAround(const std::vector<std::pair<double, double>>& depths) {
+  constexpr std::size_t kFew = 10;
+  std::vector<double> ratios;
+  for (const auto& [before, after] : depths) {
+    if (before > 0 && after > 0) ratios.push_back(after / before);
+  }
+  if (ratios.size() < kFew) return std::nullopt;
+  return UpperMedian(ratios);
+}
+
+// Scales all lengths of a solution about the fixed point `centre`.
+void ScaleAbout(const Eigen::Vector3d& centre, double scale, BaResult& result) {
+  for (Rigid3& pose : result.poses) {
+    pose.translation = scale * pose.translation + (scale - 1) * (pose.rotation * centre);
+  }
+  for (Eigen::Vector3d& point : result.points) point = scale * point + (1 - scale) * centre;
+  for (OrthonormalLine& line : result.lines) {
+    PluckerLine scaled = ToPlucker(line);
+    scaled.moment = scale * scaled.moment + (1 - scale) * centre.cross(scaled.direction);
+    line = ToOrthonormal(scaled);
+  }
+  for (Segment3& ends : result.line_ends) {
+    ends.start = scale * ends.start + (1 - scale) * centre;
+    ends.end = scale * ends.end + (1 - scale) * centre;
+  }
+}
+
+void Move(const Rigid3& new_from_old, BaResult& result) {
+  const Rigid3 old_from_new = Inverse(new_from_old);
+  for (Rigid3& pose : result.poses) pose = pose * old_from_new;
+  for (Eigen::Vector3d& point : result.points) point = new_from_old * point;
+  for (OrthonormalLine& line : result.lines) {
+    line = ToOrthonormal(Transform(new_from_old, ToPlucker(line)));
+  }
+  for (Segment3& ends : result.line_ends) {
+    ends = {new_from_old * ends.start, new_from_old * ends.end};
+  }
+}
+
+constexpr std::size_t kViewsForTrimming = 4;
+
+}  // namespace
 
 MapProblemBuilder::MapProblemBuilder(const Map& map,
                                      const CameraAndPyramid& imaging,
@@ -113,6 +170,87 @@ std::map<KeyFrameId, Rigid3> PosesByKeyFrame(const MapProblem& part, const BaRes
     poses[part.keyframes[k]] = result.poses[k] * part.problem_from_world;
   }
   return poses;
+}
+
+std::vector<double> ScalesOf(const BaProblem& problem, const BaResult& result) {
+  std::vector<double> scales(problem.poses.size(), 1);
+  if (problem.camera.baseline > 0) return scales;
+  std::vector<std::vector<std::pair<double, double>>> depths(problem.poses.size());
+  for (const auto& o : problem.point_observations) {
+    const auto pose = static_cast<std::size_t>(o.pose);
+    const auto point = static_cast<std::size_t>(o.point);
+    depths[pose].emplace_back((problem.poses[pose].cam_from_world * problem.points[point]).z(),
+                              (result.poses[pose] * result.points[point]).z());
+  }
+  std::optional<double> last;
+  for (std::size_t k = 0; k < scales.size() && !last; ++k) last = ScaleAround(depths[k]);
+  for (std::size_t k = 0; k < scales.size() && last; ++k) {
+    scales[k] = ScaleAround(depths[k]).value_or(*last);
+    last = scales[k];
+  }
+  return scales;
+}
+
+void FixScaleToOldestKeyFrame(const BaProblem& problem, BaResult& result) {
+  if (problem.poses.empty() || problem.camera.baseline > 0) return;
+  const auto fixed = std::count_if(
+      problem.poses.begin(), problem.poses.end(), [](const auto& pose) { return pose.fixed; });
+  if (fixed > 1) return;
+  const Eigen::Vector3d centre = Inverse(problem.poses.front().cam_from_world).translation;
+  ScaleAbout(centre, 1 / ScalesOf(problem, result).front(), result);
+}
+
+void KeepPlaceOf(std::size_t pose, const BaProblem& problem, BaResult& result) {
+  if (problem.camera.baseline > 0) return;
+  const double scale = 1 / ScalesOf(problem, result)[pose];
+  Move(Inverse(problem.poses[pose].cam_from_world) * result.poses[pose], result);
+  ScaleAbout(Inverse(result.poses[pose]).translation, scale, result);
+}
+
+edit::MoveLine RefitInterval(const Map& map,
+                             const CameraAndPyramid& imaging,
+                             const std::map<KeyFrameId, Rigid3>& poses,
+                             const MapLine& line,
+                             const PluckerLine& moved,
+                             const std::optional<Segment3>& kept) {
+  PluckerLine target = moved;
+  if (target.direction.dot(line.line.direction) < 0) target = {-moved.moment, -moved.direction};
+  edit::MoveLine change{line.id, target, 0, 0, Eigen::Matrix4d::Zero()};
+  const PreparedLine prepared(ToOrthonormal(target));
+  std::vector<double> starts;
+  std::vector<double> ends;
+  for (const auto& [id, feature] : line.observations) {
+    const Frame& in_map = map.Find(id)->frame;
+    const auto it = poses.find(id);
+    Frame frame;  // has the features, which are shared, and the new pose; matches are not needed
+    frame.indexed = in_map.indexed;
+    frame.cam_from_world = it != poses.end() ? it->second : in_map.cam_from_world;
+    const auto i = static_cast<std::size_t>(feature);
+    change.information += LineInformation(imaging.camera, frame, i, prepared);
+    if (kept) continue;
+    const auto interval = TrimToSegment(
+        imaging.camera, frame.cam_from_world, target, frame.features().lines[i].segment);
+    if (!interval) continue;
+    starts.push_back(std::min(interval->start, interval->end));
+    ends.push_back(std::max(interval->start, interval->end));
+  }
+  if (starts.empty()) {
+    const Segment3 points = kept.value_or(line.Interval());
+    change.start = target.ParameterOf(points.start);
+    change.end = target.ParameterOf(points.end);
+    if (kept && change.end < change.start) std::swap(change.start, change.end);
+    return change;
+  }
+  std::sort(starts.begin(), starts.end());
+  std::sort(ends.begin(), ends.end());
+  const std::size_t skip = starts.size() >= kViewsForTrimming ? 1 : 0;
+  change.start = starts[skip];
+  change.end = ends[ends.size() - 1 - skip];
+  if (change.end <= change.start) {
+    change.start = starts.front();
+    change.end = ends.back();
+  }
+  return change;
 }
 
 }  // namespace plumbline

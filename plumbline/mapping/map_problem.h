@@ -6,10 +6,12 @@
 #include "plumbline/matching/measurements.h"
 #include "plumbline/matching/projection_search.h"
 #include "plumbline/optimization/bundle_adjustment.h"
+#include "plumbline/optimization/bundle_adjustment_result.h"
 #include "plumbline/optimization/problem.h"
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace plumbline {
@@ -84,5 +86,36 @@ std::map<KeyFrameId, Rigid3> PosesByKeyFrame(const MapProblem& part, const BaRes
 // Returns the result as changes of the map: free poses, points, and the removal of outlier
 // observations of points. Lines are up to the caller.
 MapEdit PosesAndPointsOf(const MapProblem& part, const BaResult& result);
+
+// Returns for each pose the factor by which a solution has changed the depths of its points, as the
+// median over these points; 1 if depth is measured. A pose with fewer than ten points in front of
+// it gets the factor of the pose before it; the first ones get that of the first pose with enough.
+std::vector<double> ScalesOf(const BaProblem& problem, const BaResult& result);
+
+// Scales a solution for a single camera about the camera of its first pose, so that the median
+// depth of this pose's points is unchanged. Does nothing if depth is measured, or if two or more
+// poses are fixed, which fix the scale. Otherwise no measurement fixes it, and the damped steps of
+// an adjustment change it: a map of twenty keyframes grew by two thirds within a second of forward
+// motion, and earlier reported poses were inconsistent with all later ones.
+void FixScaleToOldestKeyFrame(const BaProblem& problem, BaResult& result);
+
+// Moves a solution for a single camera as a whole, poses, points and lines, so that one of its
+// poses is unchanged, and scales it so that the median depth of this pose's points is unchanged. If
+// it is the newest one, later reported poses continue the earlier ones without a step. Does nothing
+// if depth is measured.
+void KeepPlaceOf(std::size_t pose, const BaProblem& problem, BaResult& result);
+
+// Returns the change that moves a map line. The interval follows from the observed segments, each
+// trimmed to the new line. With four or more views the outermost ends are dropped, since one view's
+// overlong segment should not lengthen the line for ever. The information follows from all
+// observations. The direction keeps its sense.
+//   poses  keyframe poses that differ from the map's
+//   kept   the ends, where the line keeps its own: the interval reaches from one to the other
+edit::MoveLine RefitInterval(const Map& map,
+                             const CameraAndPyramid& imaging,
+                             const std::map<KeyFrameId, Rigid3>& poses,
+                             const MapLine& line,
+                             const PluckerLine& moved,
+                             const std::optional<Segment3>& kept = std::nullopt);
 
 }  // namespace plumbline

@@ -4,6 +4,7 @@
 
 #include "plumbline/geometry/segment.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace plumbline {
@@ -18,5 +19,11 @@ struct MappedLine {
 
 // Returns the segments of lines, for drawing.
 std::vector<Segment3> SegmentsOf(const std::vector<MappedLine>& lines);
+
+// Memory of the lines in local bundle adjustment, summed over all windows.
+struct AdjustedLines {
+  std::size_t count = 0;
+  std::size_t bytes = 0;
+};
 
 }  // namespace plumbline

@@ -5,7 +5,6 @@
 #include "plumbline/mapping/lens_calibration.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/map_problem.h"
-#include "plumbline/mapping/scale_of_map.h"
 #include "plumbline/optimization/elimination_plan.h"
 #include "plumbline/optimization/pose_uncertainty.h"
 #include "plumbline/optimization/sharing_poses.h"

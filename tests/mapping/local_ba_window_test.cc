@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/local_ba_window.h"
 
-#include "plumbline/mapping/line_interval.h"
+#include "plumbline/mapping/map_problem.h"
 
 #include "tests/support/true_map.h"
 #include <algorithm>

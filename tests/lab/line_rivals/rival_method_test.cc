@@ -4,8 +4,8 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/mapping/landmark_creation.h"
+#include "plumbline/mapping/landmark_culling.h"
 #include "plumbline/mapping/local_ba_window.h"
-#include "plumbline/mapping/outlier_removal.h"
 #include "plumbline/slam/options.h"
 
 #include "tests/support/synthetic_run.h"
