@@ -11,7 +11,6 @@
 #include "plumbline/io/map_io.h"
 #include "plumbline/loop_closing/essential_graph.h"
 #include "plumbline/loop_closing/options.h"
-#include "plumbline/loop_closing/strong_covisibility.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/local_mapper.h"

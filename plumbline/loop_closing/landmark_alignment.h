@@ -2,14 +2,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/sim3.h"
-#include "plumbline/loop_closing/alignment_problem.h"
+#include "plumbline/map/landmarks.h"
+#include "plumbline/optimization/problem.h"
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace plumbline {
+
+// The relative pose of two cameras, "query" and "candidate", from landmarks known to both, as plain
+// data. Each landmark is in the frame and scale of one of the two.
+
+// A point in the frame of a camera.
+struct CameraPoint {
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+// The matches between the landmarks and images of the two cameras.
+struct AlignmentProblem {
+  struct PointPair {
+    CameraPoint in_query, in_candidate;
+  };
+  struct LinePair {
+    LineModel in_query, in_candidate;
+  };
+  // An observation by one of the two cameras of a point whose position only the other one knows.
+  struct Sighting {
+    bool known_to_query = true;
+    CameraPoint point;
+    PointMeasurement measurement;  // measurement by the other camera
+  };
+
+  RectifiedCamera camera;
+  bool free_scale = false;  // true with one camera, whose scale is unknown
+  std::vector<PointPair> points;
+  std::vector<LinePair> lines;
+  std::vector<Sighting> sightings;
+};
 
 // A relative pose, and its inlier matches.
 struct AlignmentResult {
@@ -42,5 +78,20 @@ std::optional<Similarity3> AlignByRansac(const AlignmentProblem& problem, std::u
 std::optional<AlignmentResult> RefineAlignment(const AlignmentProblem& problem,
                                                const Similarity3& near,
                                                double gate);
+
+// Returns the similarity (scale 1 unless it is free) from the query's camera to the candidate's
+// that aligns a few points and lines. Three matches are needed; two are enough if at least one is
+// of lines.
+//
+// The rotation best aligns unit vectors (Kabsch 1976): the directions of lines (lines are
+// directed), those between points, and those from lines to points, perpendicular to the lines.
+// Scale and translation then solve the linear equations that points coincide, and that points of
+// the query's lines lie on the candidate's.
+//
+// Returns nullopt if the matches are degenerate (collinear points, parallel lines alone, coplanar
+// lines with free scale), or if the scale is negative.
+std::optional<Similarity3> AlignSample(std::span<const AlignmentProblem::PointPair> points,
+                                       std::span<const AlignmentProblem::LinePair> lines,
+                                       bool free_scale);
 
 }  // namespace plumbline

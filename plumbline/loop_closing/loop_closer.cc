@@ -4,8 +4,8 @@
 
 #include "plumbline/base/units.h"
 #include "plumbline/geometry/covariance.h"
+#include "plumbline/loop_closing/loop_edge.h"
 #include "plumbline/loop_closing/pairwise_consistency.h"
-#include "plumbline/loop_closing/pose_with_covariance.h"
 
 #include <algorithm>
 #include <cstddef>

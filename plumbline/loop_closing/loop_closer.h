@@ -6,7 +6,6 @@
 #include "plumbline/loop_closing/essential_graph.h"
 #include "plumbline/loop_closing/loop_edge.h"
 #include "plumbline/loop_closing/options.h"
-#include "plumbline/loop_closing/strong_covisibility.h"
 #include "plumbline/loop_closing/verify_loop.h"
 #include "plumbline/map/map.h"
 #include "plumbline/matching/projection_search.h"

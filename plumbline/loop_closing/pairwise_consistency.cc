@@ -3,7 +3,7 @@
 #include "plumbline/loop_closing/pairwise_consistency.h"
 
 #include "plumbline/base/index.h"
-#include "plumbline/loop_closing/pose_with_covariance.h"
+#include "plumbline/loop_closing/loop_edge.h"
 
 #include <cstddef>
 #include <utility>

@@ -5,8 +5,8 @@
 #include "plumbline/base/index.h"
 #include "plumbline/geometry/covariance.h"
 #include "plumbline/geometry/eigenpairs.h"
+#include "plumbline/loop_closing/loop_edge.h"
 #include "plumbline/loop_closing/loop_search.h"
-#include "plumbline/loop_closing/pose_with_covariance.h"
 #include "plumbline/loop_closing/significance.h"
 
 #include <algorithm>

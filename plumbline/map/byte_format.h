@@ -6,10 +6,8 @@
 #include "plumbline/map/frame.h"
 #include "plumbline/map/keyframe_pose.h"
 #include "plumbline/map/landmarks.h"
-#include "plumbline/map/map_record.h"
-#include "plumbline/map/recent_landmarks.h"
+#include "plumbline/map/map.h"
 #include "plumbline/map/saved_atlas.h"
-#include "plumbline/map/session.h"
 
 #include <bit>
 #include <cstddef>

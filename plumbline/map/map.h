@@ -2,23 +2,60 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/ids.h"
+#include "plumbline/features/feature_correction.h"
 #include "plumbline/map/edit.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/id_table.h"
 #include "plumbline/map/keyframe_pose.h"
 #include "plumbline/map/landmarks.h"
-#include "plumbline/map/map_identity.h"
-#include "plumbline/map/map_record.h"
 #include "plumbline/map/removed_keyframes.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 namespace plumbline {
+
+// All of a map except its keyframes and landmarks. MapBuilder restores the map from both.
+struct MapRecord {
+  MapId id{0};
+  std::int64_t version = 0;
+  std::int64_t keyframes_taken_in = 0;
+  KeyFrameId next_keyframe{0};
+  PointId next_point{0};
+  LineId next_line{0};
+  FeatureCorrection correction;
+  std::map<KeyFrameId, RemovedKeyFrame> removed_keyframes;
+  // key: the removed landmark; value: the one it was merged into
+  std::map<PointId, PointId> merged_points;
+  std::map<LineId, LineId> merged_lines;
+};
+
+// Distinguishes a map from its copies, which have the same id but may diverge. A copy gets an
+// identity of its own; a moved map keeps its identity.
+class MapIdentity {
+ public:
+  MapIdentity() : token_(std::make_shared<const char>('\0')) {}
+  MapIdentity(const MapIdentity&) : MapIdentity() {}
+  MapIdentity(MapIdentity&&) noexcept = default;
+  MapIdentity& operator=(MapIdentity other) noexcept {
+    token_ = std::move(other.token_);
+    return *this;
+  }
+  ~MapIdentity() = default;
+
+  // Returns a pointer that is unique while anyone holds it; nullptr after a move.
+  const std::shared_ptr<const char>& token() const { return token_; }
+
+ private:
+  std::shared_ptr<const char> token_;
+};
 
 // Keyframes, points and lines of one connected world, keyed by id. Only Apply changes it. Copies
 // share unchanged parts. Copying takes some microseconds per thousand landmarks, and the copy may

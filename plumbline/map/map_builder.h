@@ -3,7 +3,6 @@
 #pragma once
 
 #include "plumbline/map/map.h"
-#include "plumbline/map/map_record.h"
 
 #include <string>
 

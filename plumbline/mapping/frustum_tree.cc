@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kLeaf = 4;
 // Margin against rounding, so that nothing is missed that an exact test would find.
-constexpr double kMargin = 1e-6;
+constexpr double kConeMargin = 1e-6;
 
 double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return math::Atan2(a.cross(b).norm(), a.dot(b));
@@ -33,11 +33,11 @@ FrustumTree::FrustumTree(const Map& map, const RectifiedCamera& camera) {
           std::max(half_view_, AngleBetween(Eigen::Vector3d::UnitZ(), camera.Unproject({u, v})));
     }
   }
-  half_view_ += kMargin;
+  half_view_ += kConeMargin;
   // A step across the ray at distance d moves the pixel by f / (d cos^2), where cos is that of the
   // ray's angle from the axis.
   const double cosine = math::Cos(half_view_);
-  px_per_radian_ = (1 + kMargin) * std::max(camera.fx, camera.fy) / (cosine * cosine);
+  px_per_radian_ = (1 + kConeMargin) * std::max(camera.fx, camera.fy) / (cosine * cosine);
   for (const auto& [id, keyframe] : map.keyframes()) {
     const Rigid3 world_from_cam = Inverse(keyframe.frame.cam_from_world);
     Node camera_alone{.centre = world_from_cam.translation,
@@ -115,7 +115,7 @@ bool FrustumTree::MaySee(const Node& node,
                          double reach) const {
   const Eigen::Vector3d to_target = target - node.centre;
   const double distance = to_target.norm();
-  if (distance > (reach + node.radius) * (1 + kMargin)) return false;
+  if (distance > (reach + node.radius) * (1 + kConeMargin)) return false;
   const double both = radius + node.radius;
   if (!(distance > both)) return true;
   if (node.open >= std::numbers::pi) return true;
@@ -125,7 +125,7 @@ bool FrustumTree::MaySee(const Node& node,
   // The cone is then so wide that it covers all directions.
   if (node.sin_open * cos_by + node.cos_open * sin_by <= 0) return true;
   const double cos_widened = node.cos_open * cos_by - node.sin_open * sin_by;
-  return !(node.axis.dot(to_target) < distance * (cos_widened - kMargin));
+  return !(node.axis.dot(to_target) < distance * (cos_widened - kConeMargin));
 }
 
 std::vector<int> FrustumTree::MayShow(const Wanted& wanted) const {
@@ -133,7 +133,7 @@ std::vector<int> FrustumTree::MayShow(const Wanted& wanted) const {
   if (nodes_.empty()) return found;
   const Eigen::Vector3d middle = wanted.segment.Midpoint();
   const double length = wanted.segment.Length();
-  const double radius = 0.5 * length * (1 + kMargin);
+  const double radius = 0.5 * length * (1 + kConeMargin);
   // The whole segment is at least `distance - radius` away, which limits the angle under which it
   // is seen.
   double reach = wanted.max_distance;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/map/landmarks.h"
 #include "plumbline/map/map.h"
-#include "plumbline/map/recent_landmarks.h"
 #include "plumbline/mapping/options.h"
 #include "plumbline/matching/line_options.h"
 #include "plumbline/matching/projection_search.h"

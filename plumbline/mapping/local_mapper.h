@@ -4,8 +4,8 @@
 
 #include "plumbline/base/stop_check.h"
 #include "plumbline/map/atlas.h"
+#include "plumbline/map/landmarks.h"
 #include "plumbline/map/map.h"
-#include "plumbline/map/recent_landmarks.h"
 #include "plumbline/mapping/landmark_culling.h"
 #include "plumbline/mapping/map_correction.h"
 #include "plumbline/mapping/mapped_line.h"

@@ -18,7 +18,7 @@ namespace {
 
 // Prior deviation of each coefficient, relative to the width of the image: the angles and lenses of
 // a rig are off by about this much, whatever the number of pixels.
-constexpr double kPriorSigma = 4e-4;
+constexpr double kCoefficientSigma = 4e-4;
 // Largest deviation of a prediction, relative to the width of the image. A prediction from views
 // that are close together errs alike for all points of a keyframe, by as much as the poses of the
 // views; a map that such predictions have bent would then confirm them.
@@ -28,7 +28,7 @@ constexpr double kMaxPredictionSigma = 2.5e-4;
 constexpr double kNoisePx = 0.5;
 constexpr double kHuber = 1.345;          // threshold of the loss, in deviations
 constexpr double kMaxDisplacementPx = 3;  // a larger displacement is a wrong match
-constexpr std::size_t kMinViews = 3;
+constexpr std::size_t kMinKeyFrames = 3;
 // A correction counts only as far as its root mean square exceeds this: smaller ones may come from
 // the biases of corners whose correlation windows show an edge in depth.
 constexpr double kBiasPx = 0.04;
@@ -100,7 +100,7 @@ void StereoCalibrator::Observe(const Map& map, const KeyFrame& keyframe) {
   for (std::size_t i = 0; i < frame.points.size(); ++i) {
     const auto& disparity = frame.features().point_disparity[i];
     const MapPoint* point = frame.points[i].valid() ? map.Find(frame.points[i]) : nullptr;
-    if (!disparity || point == nullptr || point->observations.size() < kMinViews) continue;
+    if (!disparity || point == nullptr || point->observations.size() < kMinKeyFrames) continue;
     const auto found =
         TriangulatePoint(camera_, LeftViews(map, *point), {.min_parallax = kMinParallax});
     if (!found) continue;
@@ -128,7 +128,7 @@ void StereoCalibrator::Observe(const Map& map, const KeyFrame& keyframe) {
 StereoCorrection StereoCalibrator::Estimate() const {
   const auto& [information, weighted, moments] = evidence_;
   if (moments(0, 0) == 0) return {};
-  const double prior_sigma_px = kPriorSigma * camera_.width;
+  const double prior_sigma_px = kCoefficientSigma * camera_.width;
   const Matrix6d prior = Matrix6d::Identity() / (prior_sigma_px * prior_sigma_px);
   const Matrix6d covariance = (information + prior).llt().solve(Matrix6d::Identity());
   const Vector6d learned = covariance * weighted;

@@ -4,7 +4,7 @@
 
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
-#include "plumbline/place/signature.h"
+#include "plumbline/place/signature_table.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,6 @@
 
 #include "plumbline/loop_closing/close_loop.h"
 #include "plumbline/loop_closing/scale_conflict.h"
-#include "plumbline/loop_closing/undo_loop.h"
 #include "plumbline/loop_closing/verify_loop.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/slam/atlas_places.h"

@@ -9,7 +9,6 @@
 #include "plumbline/map/atlas.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/saved_atlas.h"
-#include "plumbline/map/session.h"
 #include "plumbline/mapping/mapped_line.h"
 #include "plumbline/slam/execution.h"
 #include "plumbline/slam/extracted_frame.h"

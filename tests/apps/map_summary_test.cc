@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/map_summary.h"
 
-#include "plumbline/map/renumbering.h"
+#include "plumbline/map/combined_atlases.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/support/true_map.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/map/keyframe_trajectory.h"
 
-#include "plumbline/map/renumbering.h"
+#include "plumbline/map/combined_atlases.h"
 
 #include "tests/support/true_map.h"
 

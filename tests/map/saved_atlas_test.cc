@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/map/session.h"
+#include "plumbline/map/saved_atlas.h"
 
 #include <cstddef>
 #include <cstdint>

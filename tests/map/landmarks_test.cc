@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/map/observations.h"
+#include "plumbline/map/landmarks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
