@@ -37,7 +37,7 @@ template <class Archive, Like<Session> T>
 void Transfer(Archive& archive, T& s) {
   TransferAll(archive, s.uuid, s.program, s.data, s.first_stamp_ns, s.last_stamp_ns);
 }
-template <class Archive, Like<RecentLandmarks> T>
+template <class Archive, Like<LandmarkIds> T>
 void Transfer(Archive& archive, T& young) {
   TransferAll(archive, young.points, young.lines);
 }

@@ -53,7 +53,7 @@ void AddBehind(const std::vector<LandmarkId>& added,
   for (const LandmarkId id : added) all.push_back(offsets(id));
 }
 
-void Add(const RecentLandmarks& added, const IdOffsets& offsets, RecentLandmarks& young) {
+void Add(const LandmarkIds& added, const IdOffsets& offsets, LandmarkIds& young) {
   AddBehind(added.points, offsets, young.points);
   AddBehind(added.lines, offsets, young.lines);
 }
@@ -142,7 +142,7 @@ void SettleJoined(SavedAtlas& saved) {
   for (const auto& [gone, kept] : saved.atlas.joined()) {
     const auto of_gone = saved.context.maps.find(gone);
     if (of_gone == saved.context.maps.end()) continue;
-    const RecentLandmarks young = std::move(of_gone->second.young);
+    const LandmarkIds young = std::move(of_gone->second.young);
     saved.context.maps.erase(of_gone);
     Add(young, IdOffsets(), saved.context.maps[saved.atlas.Current(gone)].young);
   }

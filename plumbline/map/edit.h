@@ -63,12 +63,12 @@ struct AddPoint {
 struct AddLine {
   MapLine line;
 };
-struct RemovePoint {
-  PointId id;
+template <class Id>
+struct Remove {
+  Id id;
 };
-struct RemoveLine {
-  LineId id;
-};
+using RemovePoint = Remove<PointId>;
+using RemoveLine = Remove<LineId>;
 struct MovePoint {
   PointId id;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -80,50 +80,46 @@ struct MoveLine {
   double end = 0;
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
 };
-struct AddPointObservation {
-  PointId id;
+template <class Id>
+struct AddObservation {
+  Id id;
   KeyFrameId keyframe;
   int feature = 0;
 };
-struct AddLineObservation {
-  LineId id;
-  KeyFrameId keyframe;
-  int feature = 0;
-};
-struct RemovePointObservation {
-  PointId id;
+using AddPointObservation = AddObservation<PointId>;
+using AddLineObservation = AddObservation<LineId>;
+template <class Id>
+struct RemoveObservation {
+  Id id;
   KeyFrameId keyframe;
 };
-struct RemoveLineObservation {
-  LineId id;
-  KeyFrameId keyframe;
-};
+using RemovePointObservation = RemoveObservation<PointId>;
+using RemoveLineObservation = RemoveObservation<LineId>;
 // Merges two landmarks: observations of `gone` become observations of `kept`, except in keyframes
 // that already show `kept`.
-struct MergePoints {
-  PointId kept, gone;
+template <class Id>
+struct Merge {
+  Id kept, gone;
 };
-struct MergeLines {
-  LineId kept, gone;
-};
+using MergePoints = Merge<PointId>;
+using MergeLines = Merge<LineId>;
 // Recomputes the appearance from the observations: descriptor, viewing direction and reference
 // scale (RefreshAppearance).
-struct RefreshPoint {
-  PointId id;
+template <class Id>
+struct Refresh {
+  Id id;
 };
-struct RefreshLine {
-  LineId id;
-};
-struct ScorePoint {
-  PointId id;
-  int visible = 0;
-  int found = 0;  // both are added to the score
-};
-struct ScoreLine {
-  LineId id;
+using RefreshPoint = Refresh<PointId>;
+using RefreshLine = Refresh<LineId>;
+// Adds to a landmark's tracking score.
+template <class Id>
+struct Score {
+  Id id;
   int visible = 0;
   int found = 0;
 };
+using ScorePoint = Score<PointId>;
+using ScoreLine = Score<LineId>;
 
 }  // namespace edit
 

@@ -18,8 +18,8 @@
 
 namespace plumbline {
 
-// Landmarks created recently, still on probation. Some may have left the map.
-struct RecentLandmarks {
+// Some landmarks of a map, by id. Some may have left the map.
+struct LandmarkIds {
   std::vector<PointId> points;
   std::vector<LineId> lines;
 };

@@ -44,7 +44,7 @@ struct Session {
 // Data of a map of an atlas beside the map itself.
 struct MapContext {
   Uuid uuid;
-  RecentLandmarks young;
+  LandmarkIds young;  // created recently, still on probation
 };
 
 // Settings with which the maps of an atlas were made, and the state with which a run continues

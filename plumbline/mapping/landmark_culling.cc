@@ -283,7 +283,7 @@ class OutlierSearch {
 
 }  // namespace
 
-MapEdit RemoveWeakLandmarks(const Map& map, KeyFrameId newest, RecentLandmarks& young) {
+MapEdit RemoveWeakLandmarks(const Map& map, KeyFrameId newest, LandmarkIds& young) {
   MapEdit edit;
   JudgeAll<edit::RemovePoint>(map, newest, young.points, edit);
   JudgeAll<edit::RemoveLine>(map, newest, young.lines, edit);

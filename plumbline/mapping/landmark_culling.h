@@ -12,7 +12,7 @@ namespace plumbline {
 
 // Removes recent landmarks that the tracker seldom finds at their projection, or that too few
 // keyframes show after their probation. Landmarks that passed it leave the list of recent ones.
-MapEdit RemoveWeakLandmarks(const Map& map, KeyFrameId newest, RecentLandmarks& young);
+MapEdit RemoveWeakLandmarks(const Map& map, KeyFrameId newest, LandmarkIds& young);
 
 // Removes at most one keyframe: the first redundant one around `centre`, in the order of
 // covisibility. A keyframe is redundant if three others show nearly all of its landmarks (those

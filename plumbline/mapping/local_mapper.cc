@@ -123,9 +123,9 @@ void LocalMapper::FollowJoins(const Atlas& atlas) {
       ++of_map;
       continue;
     }
-    const RecentLandmarks gone = std::move(of_map->second);
+    const LandmarkIds gone = std::move(of_map->second);
     of_map = young_.erase(of_map);
-    RecentLandmarks& kept = young_[current];
+    LandmarkIds& kept = young_[current];
     kept.points.insert(kept.points.end(), gone.points.begin(), gone.points.end());
     kept.lines.insert(kept.lines.end(), gone.lines.begin(), gone.lines.end());
   }
@@ -231,7 +231,7 @@ void LocalMapper::CreateLandmarks(Map& map, KeyFrameId id) {
 
 // Adds the landmarks that an edit creates to the recent ones of the map, which are on probation.
 void LocalMapper::AddToProbation(MapId map, const MapEdit& edit) {
-  RecentLandmarks& young = young_[map];
+  LandmarkIds& young = young_[map];
   for (const MapChange& change : edit) {
     if (const auto* point = std::get_if<edit::AddPoint>(&change)) {
       young.points.push_back(point->point.id);

@@ -90,7 +90,7 @@ class LocalMapper {
   // State kept from keyframe to keyframe. A mapper of the same options that gets the state and the
   // map of another mapper continues like it.
   struct State {
-    std::map<MapId, RecentLandmarks> young;
+    std::map<MapId, LandmarkIds> young;  // recent landmarks, still on probation
     StereoEvidence stereo_evidence;
   };
   State state() const { return {young_, calibrator_.evidence()}; }
@@ -115,7 +115,7 @@ class LocalMapper {
   CameraAndPyramid imaging_;
   LineOptions lines_;
   MappingOptions options_;
-  std::map<MapId, RecentLandmarks> young_;
+  std::map<MapId, LandmarkIds> young_;
   PointAligner point_aligner_;
   StereoCalibrator calibrator_;
   StereoChange stereo_change_;

@@ -28,8 +28,8 @@ void AddMaps(const Atlas& atlas, const LocalMapper::State& mapper, AtlasContext&
                 [&](const auto& of_map) { return atlas.Find(of_map.first) == nullptr; });
 }
 
-std::map<MapId, RecentLandmarks> YoungOf(const AtlasContext& context) {
-  std::map<MapId, RecentLandmarks> young;
+std::map<MapId, LandmarkIds> YoungOf(const AtlasContext& context) {
+  std::map<MapId, LandmarkIds> young;
   for (const auto& [id, of_map] : context.maps) young[id] = of_map.young;
   return young;
 }

@@ -20,6 +20,6 @@ std::string ResultOptionsYaml(const SlamOptions& options);
 void AddMaps(const Atlas& atlas, const LocalMapper::State& mapper, AtlasContext& context);
 
 // Returns the recent landmarks of each map from a context (AddMaps).
-std::map<MapId, RecentLandmarks> YoungOf(const AtlasContext& context);
+std::map<MapId, LandmarkIds> YoungOf(const AtlasContext& context);
 
 }  // namespace plumbline

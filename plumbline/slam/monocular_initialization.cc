@@ -180,17 +180,17 @@ void MonocularInitialization::LocateFramesOf(const Start& start,
       continue;
     }
     const auto indexed = WithCorrection(frame->indexed, nearest.snapshot().correction);
-    const auto pose =
+    const auto found =
         LocateFrame(imaging_, estimator_, *indexed, predicted, nearest.snapshot(), max_pose_sigma_);
-    if (!pose) {
+    if (!found) {
       if (tracked) prediction.Add(frame->stamp_ns, predicted);
       missed += !tracked;
       continue;
     }
     missed = 0;
-    prediction.Add(frame->stamp_ns, pose->cam_from_world);
-    located.push_back(
-        {frame->id, start.map, nearest.id(), nearest.Relative(pose->cam_from_world), pose->counts});
+    const Rigid3& pose = found->pose.cam_from_world;
+    prediction.Add(frame->stamp_ns, pose);
+    located.push_back({frame->id, start.map, nearest.id(), nearest.Relative(pose), found->counts});
   }
 }
 

@@ -8,7 +8,7 @@
 #include "plumbline/slam/front_end.h"
 #include "plumbline/slam/initial_map_edit.h"
 #include "plumbline/slam/options.h"
-#include "plumbline/tracking/frame_location.h"
+#include "plumbline/tracking/pose_search.h"
 #include "plumbline/tracking/tracker.h"
 
 #include <cstdint>

@@ -2,29 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/base/options.h"
+#include "plumbline/map/frame.h"
+#include "plumbline/map/snapshot.h"
+#include "plumbline/tracking/landmark_matches.h"
+#include "plumbline/tracking/options.h"
 
 #include <array>
 #include <type_traits>
 
 namespace plumbline {
-
-// Limits of the interval between keyframes.
-struct KeyFramePolicyOptions {
-  int max_frames = 20;  // a keyframe is made at the latest after this number of frames
-  int min_frames = 2;   // no keyframe is made sooner, unless tracking is about to fail
-};
-
-template <class Visitor>
-void VisitFields(Visitor&& visit, KeyFramePolicyOptions& o) {
-  visit(
-      "max_frames", o.max_frames, "a keyframe at the latest after so many frames", Range{1, 10000});
-  visit("min_frames",
-        o.min_frames,
-        "frames after a keyframe until the next may come, unless tracking is about to fail; 1: the "
-        "very next",
-        Range{1, 1000});
-}
 
 // Reason for a keyframe.
 enum class KeyFrameReason {
@@ -57,5 +43,18 @@ struct KeyFrameSituation {
 // camera's measurements, not on the load of the machine.
 KeyFrameReason DecideKeyFrame(const KeyFrameSituation& situation,
                               const KeyFramePolicyOptions& options);
+
+// Returns the input of the keyframe decision for a frame tracked against a snapshot: its share of
+// the landmarks of the snapshot's keyframe, and its number of near points.
+//
+//   association    matches of the frame
+//   feature_share  share of the usual number of features that was extracted
+//   monocular      true if no depth is measured
+KeyFrameSituation SituationOf(const Frame& frame,
+                              const LandmarkMatches& association,
+                              const MapSnapshot& snapshot,
+                              int frames_since_keyframe,
+                              double feature_share,
+                              bool monocular);
 
 }  // namespace plumbline

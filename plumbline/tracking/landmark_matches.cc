@@ -227,7 +227,7 @@ void SetLandmarks(const LandmarkMatches& association, Frame& frame) {
   frame.lines = IdsOfMatches<LineId>(matches.line_of_feature, association.lines);
 }
 
-void CountSeen(const ExpectedLandmarks& expected,
+void CountSeen(const LandmarkIds& expected,
                const LandmarkMatches& association,
                TrackingScores& scores) {
   const FrameMatches& matches = association.matches;
@@ -261,12 +261,12 @@ void MatchCandidates(const CameraAndPyramid& imaging,
          matches.line_of_feature);
 }
 
-ExpectedLandmarks MatchSnapshot(const CameraAndPyramid& imaging,
-                                const FrameFeatures& image,
-                                const Rigid3& cam_from_world,
-                                const ProjectionSearchOptions& options,
-                                const MapSnapshot& snapshot,
-                                LandmarkMatches& association) {
+LandmarkIds MatchSnapshot(const CameraAndPyramid& imaging,
+                          const FrameFeatures& image,
+                          const Rigid3& cam_from_world,
+                          const ProjectionSearchOptions& options,
+                          const MapSnapshot& snapshot,
+                          LandmarkMatches& association) {
   std::vector<PointCandidate>& candidate_points = association.points;
   std::vector<LineCandidate>& candidate_lines = association.lines;
   FrameMatches& matches = association.matches;
@@ -276,7 +276,7 @@ ExpectedLandmarks MatchSnapshot(const CameraAndPyramid& imaging,
   auto lines = ProjectAll(snapshot.lines, [&](const LineModel& line) {
     return ProjectLine(imaging, cam_from_world, line);
   });
-  ExpectedLandmarks expected{VisibleOf(snapshot.points, points), VisibleOf(snapshot.lines, lines)};
+  LandmarkIds expected{VisibleOf(snapshot.points, points), VisibleOf(snapshot.lines, lines)};
   LeaveOutFound(snapshot, snapshot.points, candidate_points, matches.point_of_feature, points);
   LeaveOutFound(snapshot, snapshot.lines, candidate_lines, matches.line_of_feature, lines);
   AddMatched(MatchProjectedPoints(image, points, Taken(matches.point_of_feature), options),

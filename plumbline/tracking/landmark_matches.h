@@ -78,19 +78,13 @@ void MergeMatches(const FrameMatches& from, FrameMatches& to);
 // Counts the features that have a match in both.
 int CommonMatches(const FrameMatches& a, const FrameMatches& b);
 
-// Landmarks of the map projected into the image, expected to be visible.
-struct ExpectedLandmarks {
-  std::vector<PointId> points;  // ascending
-  std::vector<LineId> lines;    // ascending
-};
-
 // Sets the landmark of each feature of a frame to its match. Features without a match, or matched
 // with a temporary landmark, get none.
 void SetLandmarks(const LandmarkMatches& association, Frame& frame);
 
 // Updates the scores of the map's landmarks: counts each expected landmark as visible, and each
 // matched one as found.
-void CountSeen(const ExpectedLandmarks& expected,
+void CountSeen(const LandmarkIds& expected,
                const LandmarkMatches& association,
                TrackingScores& scores);
 
@@ -103,12 +97,12 @@ void MatchCandidates(const CameraAndPyramid& imaging,
 
 // Projects the landmarks of the snapshot with the given pose and matches unmatched ones with
 // unmatched features. Only matched ones become candidates, since a frame shows few of the thousands
-// of landmarks of a snapshot. Returns all that should be visible, matched or not.
-ExpectedLandmarks MatchSnapshot(const CameraAndPyramid& imaging,
-                                const FrameFeatures& image,
-                                const Rigid3& cam_from_world,
-                                const ProjectionSearchOptions& options,
-                                const MapSnapshot& snapshot,
-                                LandmarkMatches& association);
+// of landmarks of a snapshot. Returns all that should be visible, matched or not, ascending.
+LandmarkIds MatchSnapshot(const CameraAndPyramid& imaging,
+                          const FrameFeatures& image,
+                          const Rigid3& cam_from_world,
+                          const ProjectionSearchOptions& options,
+                          const MapSnapshot& snapshot,
+                          LandmarkMatches& association);
 
 }  // namespace plumbline

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "plumbline/base/options.h"
-#include "plumbline/tracking/keyframe_decision.h"
 
 #include <array>
 #include <type_traits>
@@ -17,6 +16,23 @@ enum class TrackingReference { kLocalMap, kLastFrame };
 constexpr auto EnumNames(std::type_identity<TrackingReference>) {
   return std::array{std::pair{TrackingReference::kLocalMap, "local_map"},
                     std::pair{TrackingReference::kLastFrame, "last_frame"}};
+}
+
+// Limits of the interval between keyframes.
+struct KeyFramePolicyOptions {
+  int max_frames = 20;  // a keyframe is made at the latest after this number of frames
+  int min_frames = 2;   // no keyframe is made sooner, unless tracking is about to fail
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, KeyFramePolicyOptions& o) {
+  visit(
+      "max_frames", o.max_frames, "a keyframe at the latest after so many frames", Range{1, 10000});
+  visit("min_frames",
+        o.min_frames,
+        "frames after a keyframe until the next may come, unless tracking is about to fail; 1: the "
+        "very next",
+        Range{1, 1000});
 }
 
 struct TrackingOptions {

@@ -7,6 +7,7 @@
 #include "plumbline/matching/landmark_from_frame.h"
 #include "plumbline/matching/line_matching.h"
 #include "plumbline/solvers/absolute_pose.h"
+#include "plumbline/tracking/landmark_matches.h"
 
 #include <algorithm>
 #include <cmath>
@@ -296,6 +297,33 @@ PoseAttempt PoseSearch::WithLocalMap(const Frame& frame,
   attempt.pose =
       EstimateFavoringEstablished(frame, first.cam_from_world, prior, snapshot, association);
   return attempt;
+}
+
+std::optional<PoseAttempt> LocateFrame(const CameraAndPyramid& imaging,
+                                       const PoseEstimator& estimator,
+                                       const FrameFeatures& image,
+                                       const Rigid3& predicted,
+                                       const MapSnapshot& snapshot,
+                                       double max_pose_sigma) {
+  for (const double factor : {1.0, kWideFactor}) {
+    PoseAttempt located;
+    located.association =
+        LandmarkMatches(image.features.points.size(), image.features.lines.size());
+    const auto accepted = [&](const Rigid3& initial) {
+      located.counts.matched_points = located.association.matches.Points();
+      located.counts.matched_lines = located.association.matches.Lines();
+      located.pose = estimator.Estimate(image.features, initial, {}, located.association);
+      located.counts.inlier_points = located.pose.inlier_points;
+      located.counts.inlier_lines = located.pose.inlier_lines;
+      return located.pose.Accepted(kFewestUnpredictedInliers, max_pose_sigma);
+    };
+    MatchSnapshot(imaging, image, predicted, FirstSearch(factor), snapshot, located.association);
+    if (!accepted(predicted)) continue;
+    const Rigid3 first = located.pose.cam_from_world;
+    MatchSnapshot(imaging, image, first, {}, snapshot, located.association);
+    if (accepted(first)) return located;
+  }
+  return std::nullopt;
 }
 
 }  // namespace plumbline

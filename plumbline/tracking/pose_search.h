@@ -25,7 +25,7 @@ struct LastFrame {
 struct PoseAttempt {
   LandmarkMatches association;
   // Landmarks of the map that should be visible; empty if the map was not searched.
-  ExpectedLandmarks expected;
+  LandmarkIds expected;
   FrameCounts counts;  // counts of the matches
   PoseEstimate pose;
 };
@@ -147,5 +147,18 @@ class PoseSearch {
   TrackingOptions options_;
   PoseEstimator estimator_;
 };
+
+// Finds the pose of a frame, possibly out of order, in a known map. Landmarks of the snapshot are
+// searched around their projections by the predicted pose (with tracking's first radius, then with
+// its wide one) and a pose is estimated; with this pose they are searched again with the usual
+// radius, and the pose is estimated again. Both poses must pass the test that tracking applies to a
+// pose without prediction (TrackingOptions::max_pose_sigma). Returns nullopt if the frame is not
+// found. Expected landmarks are not determined.
+std::optional<PoseAttempt> LocateFrame(const CameraAndPyramid& imaging,
+                                       const PoseEstimator& estimator,
+                                       const FrameFeatures& image,
+                                       const Rigid3& predicted,
+                                       const MapSnapshot& snapshot,
+                                       double max_pose_sigma);
 
 }  // namespace plumbline

@@ -3,7 +3,7 @@
 #include "plumbline/tracking/tracker.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/tracking/keyframe_situation.h"
+#include "plumbline/tracking/keyframe_decision.h"
 
 #include <algorithm>
 #include <utility>

@@ -40,7 +40,7 @@ Verdict Judge(int visible, int found, std::int64_t newest, int views) {
              edit::AddLine{line},
              edit::ScorePoint{point.id, visible - 1, found - 1},
              edit::ScoreLine{line.id, visible - 1, found - 1}});
-  RecentLandmarks young{{point.id}, {line.id}};
+  LandmarkIds young{{point.id}, {line.id}};
   const MapEdit edit = RemoveWeakLandmarks(map, KeyFrameId{newest}, young);
   EXPECT_EQ(young.points.size(), young.lines.size());
   EXPECT_TRUE(edit.empty() || edit.size() == 2U);
@@ -68,7 +68,7 @@ TEST(RemoveWeakLandmarks, ForgetsWhatIsGoneAndLeavesTheOldAlone) {
   Map map = ChainOfKeyFrames(8);
   map.Apply(
       {edit::AddPoint{CreatedBy(0, 0, SeenBy(0, 0, 0))}, edit::ScorePoint{PointId{0}, 100, 0}});
-  RecentLandmarks young{{PointId{55}}, {LineId{55}}};
+  LandmarkIds young{{PointId{55}}, {LineId{55}}};
   EXPECT_TRUE(RemoveWeakLandmarks(map, KeyFrameId{7}, young).empty());
   EXPECT_TRUE(young.points.empty());
   EXPECT_TRUE(young.lines.empty());

@@ -145,7 +145,7 @@ TEST(MatchSnapshot, MatchesAsIfAllItsLandmarksWereCandidates) {
 
   const CameraAndPyramid imaging = frame.world.Imaging();
   MatchCandidates(imaging, *frame.sensed.indexed, frame.pose, {}, plain);
-  const ExpectedLandmarks expected =
+  const LandmarkIds expected =
       MatchSnapshot(imaging, *frame.sensed.indexed, frame.pose, {}, snapshot, association);
   Frame with_plain, with_snapshot;
   SetLandmarks(plain, with_plain);
@@ -161,7 +161,7 @@ TEST(MatchSnapshot, MatchesAsIfAllItsLandmarksWereCandidates) {
     EXPECT_EQ(line.model.line.moment, snapshot.Find(line.id)->line.moment);
   }
 
-  ExpectedLandmarks projected;
+  LandmarkIds projected;
   for (const SnapshotPoint& point : snapshot.points) {
     if (ProjectPoint(imaging, frame.pose, point)) projected.points.push_back(point.id);
   }
