@@ -5,8 +5,8 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
 #include "plumbline/eval/trajectory_error.h"
-#include "plumbline/io/euroc_sensor.h"
-#include "plumbline/io/kitti.h"
+#include "plumbline/io/camera_formats.h"
+#include "plumbline/io/dataset_formats.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/report/run_folder.h"
 

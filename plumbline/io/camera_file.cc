@@ -6,13 +6,8 @@
 #include "plumbline/base/input_file.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/geometry/plausible_calibration.h"
-#include "plumbline/io/builtin_cameras.h"
+#include "plumbline/io/camera_formats.h"
 #include "plumbline/io/camera_section.h"
-#include "plumbline/io/camodocal.h"
-#include "plumbline/io/euroc_sensor.h"
-#include "plumbline/io/kalibr.h"
-#include "plumbline/io/opencv_calibration.h"
-#include "plumbline/io/orb_slam_settings.h"
 #include "plumbline/io/yaml_section.h"
 
 #include <algorithm>

@@ -4,14 +4,18 @@
 
 #include "plumbline/geometry/se3.h"
 #include "plumbline/image/color_image.h"
+#include "plumbline/io/keyframe_images.h"
 #include "plumbline/io/map_io.h"
-#include "plumbline/io/posed_image.h"
+#include "plumbline/map/map.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <span>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -82,5 +86,38 @@ inline std::uint32_t ColmapImageId(KeyFrameId id) {
 // number to the last bit. Throw InputError if a file cannot be written.
 void WriteColmapText(const std::filesystem::path& folder, const ColmapModel& model);
 void WriteColmapBinary(const std::filesystem::path& folder, const ColmapModel& model);
+
+// Writes the lines of a map with their observed segments in the text form of LIMAP into an existing
+// folder. Ids of images and pixels (centres at 0.5, 0.5) are those of the COLMAP model
+// (ColmapImageId), so that the files fit the model:
+//
+//   image_list.txt  number of images; for each its id and name
+//   detections.txt  number of images; for each its id and number of segments, then x1 y1 x2 y2
+//   alltracks.txt   number of lines; for each its index, number of segments and of images that show
+//                   it, then its two ends in the world, the ids of the images, and the indices of
+//                   the segments among the detections of these images
+//
+// The lines are the landmarks, from end to end of their intervals, weak ones included; they are
+// counted from 0 in the order of their ids. Throws InputError if a file cannot be written.
+void WriteLimapLines(const std::filesystem::path& folder,
+                     const Map& map,
+                     const std::map<KeyFrameId, std::string>& names);
+
+// File formats of a COLMAP model.
+enum class ColmapFiles { kText, kBinary, kBoth };
+constexpr auto EnumNames(std::type_identity<ColmapFiles>) {
+  return std::array{std::pair{ColmapFiles::kText, "text"},
+                    std::pair{ColmapFiles::kBinary, "binary"},
+                    std::pair{ColmapFiles::kBoth, "both"}};
+}
+
+// Writes a map for COLMAP and LIMAP into an existing folder: sparse/0/ with the model in the
+// formats `files`, and lines/ with the lines (WriteLimapLines). Images are not written. Throws
+// InputError if a folder or file cannot be written.
+void WriteColmapFolder(const std::filesystem::path& folder,
+                       const Map& map,
+                       const ColmapModel& model,
+                       const std::map<KeyFrameId, std::string>& names,
+                       ColmapFiles files = ColmapFiles::kBoth);
 
 }  // namespace plumbline

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/image_folder.h"
-
 #include "plumbline/base/error.h"
 #include "plumbline/io/camera_file.h"
+#include "plumbline/io/dataset_formats.h"
 #include "plumbline/io/frame_preparation.h"
 #include "plumbline/io/ground_truth.h"
 #include "plumbline/io/image_dataset.h"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/geometry/se3.h"
 #include "plumbline/image/color_image.h"
 #include "plumbline/image/rectify.h"
 #include "plumbline/io/dataset.h"
@@ -15,6 +16,14 @@
 #include <string>
 
 namespace plumbline {
+
+// An exported frame that is no keyframe: the name of its image, and the pose of the rectified left
+// camera.
+struct PosedImage {
+  std::int64_t stamp_ns = 0;
+  std::string name;
+  Rigid3 cam_from_world;
+};
 
 // Returns the names of the images of keyframes in an exported map: the time stamp in nanoseconds,
 // "1403636580863555584.png". Further keyframes of one time, in the order of their ids, get

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/kitti.h"
-
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/io/camera_file.h"
+#include "plumbline/io/dataset_formats.h"
 #include "plumbline/io/ground_truth.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/kitti_calibration.h"

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/io/keyframe_images.h"
 #include "plumbline/io/map_io.h"
-#include "plumbline/io/posed_image.h"
 
 #include <filesystem>
 #include <map>

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/opencv_calibration.h"
-
 #include "plumbline/base/printable.h"
+#include "plumbline/io/camera_formats.h"
 #include "plumbline/io/camera_section.h"
 
 #include <algorithm>

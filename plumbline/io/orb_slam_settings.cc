@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/orb_slam_settings.h"
-
 #include "plumbline/base/printable.h"
 #include "plumbline/geometry/plausible_calibration.h"
+#include "plumbline/io/camera_formats.h"
 #include "plumbline/io/camera_section.h"
 
 #include <algorithm>

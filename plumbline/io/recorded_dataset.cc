@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/recorded_dataset.h"
-
 #include "plumbline/base/printable.h"
 #include "plumbline/io/camera_file.h"
+#include "plumbline/io/dataset_formats.h"
 #include "plumbline/io/ground_truth.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/raw_pixels.h"
 #include "plumbline/io/recorded_calibration.h"
 #include "plumbline/io/recorded_topics.h"
-#include "plumbline/io/stamp_pairs.h"
+#include "plumbline/io/stamp_order.h"
 #include "plumbline/recording/parse_image_message.h"
 
 #include <algorithm>

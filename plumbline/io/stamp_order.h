@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace plumbline {
@@ -46,5 +47,12 @@ void NoteLeftOut(const std::filesystem::path& file,
 std::vector<std::size_t> OrderOfTime(const std::filesystem::path& list,
                                      const std::vector<StampedRow>& rows,
                                      std::vector<std::string>& notes);
+
+// Returns pairs of times from two ascending lists, by index, in order. Each time is the nearest to
+// the other (the earlier of two equally near ones) and at most `most_ns` from it. O(n log n).
+std::vector<std::pair<std::size_t, std::size_t>> PairByStamp(
+    const std::vector<std::int64_t>& first,
+    const std::vector<std::int64_t>& second,
+    std::int64_t most_ns);
 
 }  // namespace plumbline

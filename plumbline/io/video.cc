@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/video.h"
-
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/image/opencv_modules.h"
 #include "plumbline/io/camera_file.h"
+#include "plumbline/io/dataset_formats.h"
 #include "plumbline/io/frame_preparation.h"
 #include "plumbline/io/ground_truth.h"
 #include "plumbline/io/image_dataset.h"

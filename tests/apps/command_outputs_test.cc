@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/command_outputs.h"
 
-#include "plumbline/io/dxf.h"
+#include "plumbline/io/geometry_files.h"
 #include "plumbline/io/map_io.h"
-#include "plumbline/io/ply.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/run_folder.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/camodocal.h"
+#include "plumbline/io/camera_formats.h"
 
 #include "plumbline/io/camera_file.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/euroc_sensor.h"
+#include "plumbline/io/camera_formats.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/support/data_folder.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/obj_lines.h"
 
-#include "plumbline/io/ply.h"
+#include "plumbline/io/geometry_files.h"
 
 #include "tests/io/scratch_folder.h"
 #include <string>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/video.h"
-
 #include "plumbline/base/error.h"
 #include "plumbline/image/opencv_bridge.h"
+#include "plumbline/io/dataset_formats.h"
 #include "plumbline/io/open_dataset.h"
 
 #include "tests/io/scratch_folder.h"

@@ -3,7 +3,7 @@
 #include "lab/line_maps/run_line_map.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/io/ply.h"
+#include "plumbline/io/geometry_files.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/io/write_line_landmark.h"

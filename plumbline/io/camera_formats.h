@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/calibration.h"
+#include "plumbline/geometry/camera.h"
+#include "plumbline/geometry/se3.h"
+#include "plumbline/io/yaml_section.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace plumbline {
+
+// Reads the camera of a CamOdoCal file, as used by VINS-Mono and VINS-Fusion:
+//
+//   image_width, image_height
+//   model_type: PINHOLE         projection_parameters fx fy cx cy,
+//                               distortion_parameters k1 k2 p1 p2
+//   model_type: KANNALA_BRANDT  projection_parameters mu mv u0 v0, k2 k3 k4 k5
+//                               (equidistant k1 to k4)
+//
+// rate_hz and depth_factor may be added. Throws InputError naming the key, also for MEI and
+// SCARAMUZZA, which have another projection.
+Calibration ReadCamodocal(const YamlSection& root);
+
+// Reads a camchain.yaml of the calibration tool Kalibr: cam0 becomes the left camera, cam1, if any,
+// the right camera with right_from_left = T_cn_cnm1, or without it (OpenVINS) from T_cam_imu or
+// T_imu_cam of both. Further cameras, other extrinsics of an inertial sensor, time shifts and
+// topics are ignored. Models: pinhole with radtan, equidistant or no distortion. rate_hz and
+// depth_factor, which Kalibr does not write, may be added at the top or to cam0. Throws InputError
+// naming the key for others.
+Calibration ReadKalibr(const YamlSection& root);
+
+// Reads the calibration of one camera as written by OpenCV's calibration programs (FileStorage) and
+// by ROS's camera_calibration (ost.yaml, the files of camera_info):
+//
+//   image_width, image_height
+//   camera_matrix            3x3 without skew
+//   distortion_coefficients  k1 k2 p1 p2 [k3 [zeros]]; of a fisheye k1 k2 k3 k4
+//   distortion_model         plumb_bob, rational_polynomial (with zeros behind k3), equidistant or
+//                            fisheye; OpenCV's programs have fisheye_model, 0 or 1, in its place
+//
+// rate_hz and depth_factor, which neither writes, may be added. All other keys are ignored for one
+// camera: its name, its rectification for a pair, and the process of its calibration. Throws
+// InputError naming the key.
+Calibration ReadOpenCvCalibration(const YamlSection& root);
+
+// Reads the camera from a settings file of ORB-SLAM2 or ORB-SLAM3, in the form with and without
+// `File.version: "1.0"`; all other settings are ignored. Sensors by keys:
+//
+//   LEFT.K, .D, .R, .P, RIGHT.*  a raw stereo pair with its rectification: x_rect = R x and
+//                                P_right = K [I | t] give right_from_left =
+//                                (R_right^T R_left, R_right^T t)
+//   Camera2.*                    a raw stereo pair, right_from_left = (Stereo.T_c1_c2)^-1, in
+//                                older files Tlr^-1: the pose of camera 2 in camera 1
+//   DepthMapFactor, RGBD.DepthMapFactor
+//                                colour and depth; bf and b are of no real camera then
+//   Camera.bf, Stereo.b          a rectified stereo pair of baseline bf / fx, or b
+//   none of these                one camera
+//
+// Camera.type: PinHole (k1 k2 p1 p2 [k3]), KannalaBrandt8 (k1 k2 k3 k4) or Rectified. Throws
+// InputError naming the key; the image size is required, as images are checked against it.
+Calibration ReadOrbSlamSettings(const YamlSection& root);
+
+// Contents of a EuRoC sensor.yaml of one camera.
+struct EurocSensor {
+  Camera camera;
+  Rigid3 body_from_camera;  // T_BS
+  double rate_hz = 0;
+};
+
+// Throws InputError "path:line: key: expected ..., found ...".
+EurocSensor ReadEurocSensor(const std::filesystem::path& path);
+EurocSensor ReadEurocSensor(const YamlSection& root);
+
+// A file of configs/cameras, compiled into the program so that it needs no installed files.
+struct BuiltInCamera {
+  std::string name;  // name of the file without .yaml
+  std::string yaml;
+};
+
+// Returns the files in the order of their names.
+const std::vector<BuiltInCamera>& BuiltInCameraFiles();
+
+}  // namespace plumbline
