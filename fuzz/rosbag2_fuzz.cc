@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/rosbag2_files.h"
 #include "plumbline/recording/compression.h"
-#include "plumbline/recording/sqlite_bag.h"
+#include "plumbline/recording/recording_formats.h"
 
 #include "fuzz/recording_fuzz.h"
 #include <span>

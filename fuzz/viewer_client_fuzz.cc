@@ -3,7 +3,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/foxglove/protocol.h"
 #include "plumbline/map/atlas.h"
-#include "plumbline/viewer/landmark_query.h"
+#include "plumbline/viewer/view_clients.h"
 #include "plumbline/viewer/web_access.h"
 
 #include "fuzz/input_folder.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/foxglove/schemas.h"
 
-#include "plumbline/foxglove/protobuf_writer.h"
+#include "plumbline/foxglove/messages.h"
 
 #include <array>
 #include <cstdint>

@@ -208,9 +208,9 @@ CameraFile FindCamera(const std::string& path_or_name, bool use_pair) {
   const bool exists = std::filesystem::exists(status);
   // A folder is no camera file: data are often in one that has the name of their camera.
   if (!exists || std::filesystem::is_directory(status)) {
-    for (const BuiltInCamera& file : BuiltInCameraFiles()) {
-      if (file.name != path_or_name) continue;
-      return {ParseCamera(file.yaml, file.name + ".yaml"), file.name + " (built-in camera)"};
+    for (const auto& [name, yaml] : BuiltInCameraFiles()) {
+      if (name != path_or_name) continue;
+      return {ParseCamera(yaml, name + ".yaml"), name + " (built-in camera)"};
     }
   }
   if (!exists) {
@@ -231,7 +231,7 @@ std::optional<std::filesystem::path> CameraFileIn(const std::filesystem::path& f
 
 std::vector<std::string> BuiltInCameras() {
   std::vector<std::string> names;
-  for (const BuiltInCamera& file : BuiltInCameraFiles()) names.push_back(file.name);
+  for (const auto& file : BuiltInCameraFiles()) names.push_back(file.first);
   return names;
 }
 

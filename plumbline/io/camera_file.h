@@ -28,8 +28,8 @@ namespace plumbline {
 //   body_from_left: [16 numbers]                # optional, body = frame of the ground truth
 //
 // or a file of another program, recognized by its keys: EuRoC's sensor.yaml (one camera), Kalibr's
-// camchain.yaml (kalibr.h), settings of ORB-SLAM2 and 3 (orb_slam_settings.h), CamOdoCal's files
-// (camodocal.h), and calibrations by OpenCV's programs or ROS (opencv_calibration.h).
+// camchain.yaml, settings of ORB-SLAM2 and 3, CamOdoCal's files, and calibrations by OpenCV's
+// programs or ROS (all in camera_formats.h).
 //
 // Throws InputError "source:line: key: expected ..., found ...".
 //

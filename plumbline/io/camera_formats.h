@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace plumbline {
@@ -75,13 +76,8 @@ struct EurocSensor {
 EurocSensor ReadEurocSensor(const std::filesystem::path& path);
 EurocSensor ReadEurocSensor(const YamlSection& root);
 
-// A file of configs/cameras, compiled into the program so that it needs no installed files.
-struct BuiltInCamera {
-  std::string name;  // name of the file without .yaml
-  std::string yaml;
-};
-
-// Returns the files in the order of their names.
-const std::vector<BuiltInCamera>& BuiltInCameraFiles();
+// Returns the files of configs/cameras, in the order of their names: name without .yaml, and
+// contents. They are compiled into the program, so that it needs no installed files.
+const std::vector<std::pair<std::string, std::string>>& BuiltInCameraFiles();
 
 }  // namespace plumbline

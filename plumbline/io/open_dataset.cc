@@ -8,9 +8,7 @@
 #include "plumbline/io/frame_preparation.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/rosbag2_files.h"
-#include "plumbline/recording/mcap.h"
-#include "plumbline/recording/ros_bag.h"
-#include "plumbline/recording/sqlite_bag.h"
+#include "plumbline/recording/recording_formats.h"
 
 #include <array>
 #include <cstdint>

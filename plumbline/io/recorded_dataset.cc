@@ -9,7 +9,7 @@
 #include "plumbline/io/recorded_calibration.h"
 #include "plumbline/io/recorded_topics.h"
 #include "plumbline/io/stamp_order.h"
-#include "plumbline/recording/parse_image_message.h"
+#include "plumbline/recording/image_message.h"
 
 #include <algorithm>
 #include <bit>

@@ -6,10 +6,8 @@
 #include "plumbline/io/raw_pixels.h"
 #include "plumbline/io/rosbag2_files.h"
 #include "plumbline/io/text_rows.h"
-#include "plumbline/recording/mcap.h"
-#include "plumbline/recording/parse_image_message.h"
-#include "plumbline/recording/ros_bag.h"
-#include "plumbline/recording/rosbag2.h"
+#include "plumbline/recording/image_message.h"
+#include "plumbline/recording/recording_formats.h"
 
 #include <algorithm>
 #include <array>

@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/live/capture_source.h"
-
 #include "plumbline/base/printable.h"
 #include "plumbline/image/opencv_modules.h"
 #include "plumbline/io/raw_pixels.h"
 #include "plumbline/live/call_or_abandon.h"
 #include "plumbline/live/capture_devices.h"
-#include "plumbline/live/live_camera.h"
+#include "plumbline/live/open_live_source.h"
 
 #include <chrono>
 #include <memory>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/live/live_camera.h"
-
 #include "plumbline/io/camera_file.h"
 #include "plumbline/io/image_dataset.h"
+#include "plumbline/live/open_live_source.h"
 
 #include <utility>
 

@@ -3,8 +3,6 @@
 #include "plumbline/live/open_live_source.h"
 
 #include "plumbline/io/frame_preparation.h"
-#include "plumbline/live/capture_source.h"
-#include "plumbline/live/raw_stream.h"
 
 #include <utility>
 #include <variant>

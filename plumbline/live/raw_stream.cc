@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/live/raw_stream.h"
-
 #include "plumbline/base/printable.h"
 #include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/raw_pixels.h"
 #include "plumbline/io/text_rows.h"
-#include "plumbline/live/live_camera.h"
+#include "plumbline/live/open_live_source.h"
 
 #include <algorithm>
 #include <cerrno>

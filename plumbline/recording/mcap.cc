@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/recording/mcap.h"
+#include "plumbline/recording/recording_formats.h"
 
 #include "plumbline/base/crc32.h"
 #include "plumbline/base/printable.h"

@@ -6,7 +6,7 @@
 #include "plumbline/base/crc32.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
-#include "plumbline/recording/mcap.h"
+#include "plumbline/recording/recording_formats.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -41,8 +41,7 @@ struct StoredMessage {
 using MessageSink =
     std::function<void(const Channel&, const StoredMessage&, std::span<const std::uint8_t>)>;
 
-// Recorded messages, in one file or in several. Formats are implemented by ros_bag.h, mcap.h,
-// sqlite_bag.h, rosbag2.h.
+// Recorded messages, in one file or in several. recording_formats.h reads the formats.
 class Recording {
  public:
   explicit Recording(std::filesystem::path path) : path_(std::move(path)) {}

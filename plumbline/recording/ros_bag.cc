@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/recording/ros_bag.h"
-
 #include "plumbline/base/printable.h"
 #include "plumbline/base/units.h"
 #include "plumbline/recording/byte_cursor.h"
 #include "plumbline/recording/chunk_file.h"
+#include "plumbline/recording/recording_formats.h"
 
 #include <algorithm>
 #include <map>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/recording/ros_messages.h"
-
 #include "plumbline/base/units.h"
 #include "plumbline/recording/byte_cursor.h"
+#include "plumbline/recording/image_message.h"
 
 #include <string_view>
 

@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/recording/rosbag2.h"
-
 #include "plumbline/base/input_file.h"
 #include "plumbline/recording/compression.h"
-#include "plumbline/recording/mcap.h"
-#include "plumbline/recording/sqlite_bag.h"
+#include "plumbline/recording/recording_formats.h"
 #include "plumbline/recording/temporary_folder.h"
 
 #include <algorithm>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/recording/sqlite_bag.h"
-
 #include "plumbline/base/printable.h"
-#include "plumbline/recording/parse_image_message.h"
+#include "plumbline/recording/image_message.h"
+#include "plumbline/recording/recording_formats.h"
 #include "plumbline/recording/temporary_folder.h"
 
 #include <algorithm>

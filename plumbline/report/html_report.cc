@@ -5,7 +5,6 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/escape_html.h"
 #include "plumbline/io/atomic_file.h"
-#include "plumbline/report/report_page.h"
 
 #include <chrono>
 #include <utility>

@@ -26,4 +26,8 @@ void WriteHtmlReport(const System& system,
                      ReportContext context,
                      const std::filesystem::path& folder);
 
+// Returns the page report_page.html with its style and scripts, built into the library by CMake.
+// The caller replaces {{TITLE}} and {{DATA}}.
+std::string_view ReportPage();
+
 }  // namespace plumbline

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/report/playback_schedule.h"
 
-namespace plumbline {
+#include <algorithm>
+#include <cstddef>
 
+namespace plumbline {
 PlaybackSchedule::Clock::time_point PlaybackSchedule::ReadAt(std::int64_t stamp_ns) const {
   if (!start_) return Clock::time_point::min();
   return start_->due + std::chrono::nanoseconds(stamp_ns - start_->stamp_ns) - reading_.Enough();
@@ -19,6 +21,17 @@ PlaybackSchedule::Clock::time_point PlaybackSchedule::DueOnceRead(std::int64_t s
 
 void PlaybackSchedule::Delay(Clock::duration pause) {
   if (start_) start_->due += pause;
+}
+
+void ReadingTime::Add(Duration taken) {
+  constexpr std::size_t kRemembered = 16;
+  last_.push_back(taken);
+  if (last_.size() > kRemembered) last_.pop_front();
+}
+
+ReadingTime::Duration ReadingTime::Enough() const {
+  if (last_.empty()) return Duration::zero();
+  return *std::max_element(last_.begin(), last_.end()) * 5 / 4;
 }
 
 }  // namespace plumbline

@@ -2,18 +2,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/report/reading_time.h"
-
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <optional>
 
 namespace plumbline {
 
+// Estimated time to read a frame of a recording, from the last frames. A recording played live is
+// read ahead by this time only: read earlier, the next frame would compete with tracking for the
+// processor, which a camera does not do.
+class ReadingTime {
+ public:
+  using Duration = std::chrono::steady_clock::duration;
+
+  // Adds the time that a frame took.
+  void Add(Duration taken);
+  // Returns a sufficient time for the next frame: the longest of the last sixteen and a quarter
+  // more. Zero before the first.
+  Duration Enough() const;
+
+ private:
+  std::deque<Duration> last_;
+};
+
 // Schedule of reading and delivering the frames of a recording played live. They are due at the
 // intervals of their stamps, however long the pauses of the recording; the first one is due as soon
-// as it has been read. Each later one is read ahead by the time that reading takes
-// (reading_time.h). Reads no clock itself.
+// as it has been read. Each later one is read ahead by the time that reading takes (ReadingTime).
+// Reads no clock itself.
 class PlaybackSchedule {
  public:
   using Clock = std::chrono::steady_clock;

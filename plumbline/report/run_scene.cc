@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/report/run_scene.h"
 
+#include "plumbline/report/shown_frames.h"
 #include "plumbline/report/summary.h"
-#include "plumbline/report/thinning.h"
 
 #include <cmath>
 #include <map>

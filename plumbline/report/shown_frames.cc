@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/report/shown_frames.h"
 
-#include "plumbline/report/thinning.h"
-
 #include <algorithm>
 
 namespace plumbline {

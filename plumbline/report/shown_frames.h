@@ -4,11 +4,25 @@
 
 #include "plumbline/slam/frame_log.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace plumbline {
+
+// Returns the n with which every n-th of `count` items are at most `limit`.
+inline std::size_t StepFor(std::size_t count, std::size_t limit) {
+  return std::max<std::size_t>(1, (count + limit - 1) / std::max<std::size_t>(limit, 1));
+}
+
+// Keeps the first of every `step` items.
+template <class T>
+void KeepEvery(std::size_t step, std::vector<T>& things) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < things.size(); i += step) things[kept++] = things[i];
+  things.resize(kept);
+}
 
 // Frames of a run that a page shows individually, each a row of its charts. A page with all frames
 // of a day would take gigabytes, on disk and in the browser: of a run with more frames than `limit`

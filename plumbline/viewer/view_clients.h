@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/foxglove/protocol.h"
-#include "plumbline/viewer/landmark_query.h"
+#include "plumbline/map/atlas.h"
 #include "plumbline/viewer/view_state.h"
 #include "plumbline/viewer/web_server.h"
 
@@ -17,6 +17,20 @@
 #include <string_view>
 
 namespace plumbline {
+
+// Query for the keyframes that see a landmark of the active map.
+struct MapQuestion {
+  bool is_line = false;
+  std::int64_t id = 0;
+};
+
+// Parses {"point": 12} or {"line": 3}; returns nullopt for anything else.
+std::optional<MapQuestion> ParseMapQuestion(std::string_view json);
+
+// Returns {"point": 12, "seen_by": [{"keyframe": 3, "frame": 17, "px": [x, y]}, ...]}, the oldest
+// keyframe first. For a line "px" is [x1, y1, x2, y2] (rectified left image). "seen_by" is empty if
+// the landmark has left the map. O(keyframes that see it).
+std::string AnswerMapQuestion(const Atlas& atlas, const MapQuestion& question);
 
 // Identifies a client's call, for the answer.
 struct CallId {

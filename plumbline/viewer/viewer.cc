@@ -3,7 +3,6 @@
 #include "plumbline/viewer/viewer.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/viewer/view_page.h"
 
 #include <algorithm>
 #include <charconv>
@@ -324,6 +323,24 @@ std::optional<std::string> Viewer::TakeFailure() {
 std::optional<std::string> Viewer::RecordingFailure() {
   const std::lock_guard lock(mutex_);
   return recording_failure_;
+}
+
+ViewRecorder::ViewRecorder(const std::filesystem::path& path) : file_(path) {
+  for (const FoxgloveChannel& channel : FoxgloveChannels()) {
+    file_.AddChannel({std::string(channel.topic),
+                      "protobuf",
+                      std::string(channel.type),
+                      "protobuf",
+                      FoxgloveSchemas()});
+  }
+}
+
+void ViewRecorder::Record(ViewState& state) {
+  const std::int64_t stamp_ns = state.stamp_ns();
+  for (unsigned i = 0; i < kStreams; ++i) {
+    const SharedBytes message = state.Next(static_cast<Stream>(i), cursor_, stamp_ns);
+    if (message) file_.Write(static_cast<std::uint16_t>(i), stamp_ns, *message);
+  }
 }
 
 }  // namespace plumbline

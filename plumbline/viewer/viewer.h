@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/recording/mcap_file_writer.h"
 #include "plumbline/slam/map_events.h"
 #include "plumbline/slam/system.h"
 #include "plumbline/viewer/map_comparison.h"
 #include "plumbline/viewer/view_clients.h"
-#include "plumbline/viewer/view_recorder.h"
 #include "plumbline/viewer/view_state.h"
 #include "plumbline/viewer/web_server.h"
 
@@ -27,6 +27,26 @@
 #include <vector>
 
 namespace plumbline {
+
+// Returns the page of the viewer, one file with its style and scripts. CMake builds it into the
+// library, from view_page.html, view_*.css, view_*.js and the files shared with report.html.
+std::shared_ptr<const std::string> ViewPage();
+
+// Records the messages of viewers in an MCAP file: the same channels, for every frame, with the
+// stamps of the sensor.
+class ViewRecorder {
+ public:
+  // Creates the file. Throws InputError if it cannot be written, as do all functions.
+  explicit ViewRecorder(const std::filesystem::path& path);
+
+  // Writes the messages new since the last call. Call it after each frame.
+  void Record(ViewState& state);
+  void Close() { file_.Close(); }
+
+ private:
+  McapFileWriter file_;
+  ViewCursor cursor_;
+};
 
 struct ViewerOptions {
   std::optional<WebAccess> access;  // address to listen on; nullopt: none

@@ -4,7 +4,6 @@
 
 #include "plumbline/foxglove/schemas.h"
 #include "plumbline/recording/image_message.h"
-#include "plumbline/recording/parse_image_message.h"
 
 #include <cstring>
 #include <map>

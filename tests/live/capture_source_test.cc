@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/live/capture_source.h"
-
 #include "plumbline/live/open_live_source.h"
 
 #include "tests/io/scratch_folder.h"

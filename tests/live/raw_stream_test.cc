@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/live/raw_stream.h"
+#include "plumbline/live/open_live_source.h"
 
 #include "tests/io/scratch_folder.h"
 #include <memory>

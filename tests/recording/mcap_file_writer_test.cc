@@ -3,7 +3,7 @@
 #include "plumbline/recording/mcap_file_writer.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/recording/mcap.h"
+#include "plumbline/recording/recording_formats.h"
 
 #include "tests/io/scratch_folder.h"
 #include <filesystem>

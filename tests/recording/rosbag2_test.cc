@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/recording/rosbag2.h"
+#include "plumbline/recording/recording_formats.h"
 
 #include "tests/recording/damaged_files.h"
 #include "tests/support/mcap_writer.h"

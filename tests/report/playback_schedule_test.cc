@@ -8,6 +8,23 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
+namespace {
+
+using std::chrono::milliseconds;
+
+TEST(ReadingTime, IsAQuarterMoreThanTheLongestOfTheLastSixteen) {
+  ReadingTime time;
+  EXPECT_EQ(time.Enough(), milliseconds(0));
+  time.Add(milliseconds(40));
+  EXPECT_EQ(time.Enough(), milliseconds(50));
+  for (int i = 0; i < 15; ++i) time.Add(milliseconds(8));
+  EXPECT_EQ(time.Enough(), milliseconds(50));
+  time.Add(milliseconds(4));
+  EXPECT_EQ(time.Enough(), milliseconds(10)) << "the slow one is forgotten";
+}
+
+}  // namespace
+
 namespace playback_schedule_test {
 
 using Clock = PlaybackSchedule::Clock;
@@ -49,4 +66,5 @@ TEST(PlaybackSchedule, IsLaterByAPause) {
 }
 
 }  // namespace playback_schedule_test
+
 }  // namespace plumbline

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/random.h"
-#include "plumbline/viewer/landmark_query.h"
 #include "plumbline/viewer/map_comparison.h"
+#include "plumbline/viewer/view_clients.h"
 #include "plumbline/viewer/viewed_map.h"
 
 #include "tests/support/true_map.h"

@@ -1,9 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/recording/parse_image_message.h"
-
-#include "plumbline/recording/protobuf_messages.h"
-#include "plumbline/recording/ros_messages.h"
+#include "plumbline/recording/image_message.h"
 
 #include <string_view>
 

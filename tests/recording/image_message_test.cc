@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/recording/parse_image_message.h"
+#include "plumbline/recording/image_message.h"
 
 #include "tests/support/message_writer.h"
 #include <map>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace parse_image_message_test {
+namespace image_message_test {
 
 std::span<const std::uint8_t> BytesOf(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
@@ -135,5 +135,5 @@ TEST(ParseCalibration, RefusesMatricesOfAnotherSize) {
                                 BytesOf(fields.Take())));
 }
 
-}  // namespace parse_image_message_test
+}  // namespace image_message_test
 }  // namespace plumbline
