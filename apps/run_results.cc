@@ -7,8 +7,8 @@
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/path_overlap.h"
 #include "plumbline/report/html_report.h"
-#include "plumbline/report/overlay.h"
 #include "plumbline/report/run_files.h"
+#include "plumbline/report/sample_image.h"
 
 #include "apps/counted.h"
 #include <algorithm>

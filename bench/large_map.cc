@@ -171,7 +171,7 @@ void MeasureStereoChange(const LongDrive& drive) {
 void MeasureEssentialGraph(const LongDrive& drive) {
   Map map = Unshared(drive.map);
   const LoopOptions options;
-  StrongCovisibility covisible(options.closing.strong_covisibility);
+  StrongCovisibility covisible(options.strong_covisibility);
   EssentialGraph graph;
   const auto make = [&] {
     covisible.Follow(map);

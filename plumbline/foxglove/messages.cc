@@ -19,12 +19,12 @@ constexpr std::uint64_t kLineListPrimitive = 2;
 constexpr std::uint64_t kFloat32 = 7;
 constexpr std::uint64_t kDeleteAll = 1;
 
-ProtobufWriter ColorMessage(const Rgba& color) {
+ProtobufWriter ColorMessage(const std::array<double, 4>& color) {
   return ProtobufWriter()
-      .Double(1, color.r)
-      .Double(2, color.g)
-      .Double(3, color.b)
-      .Double(4, color.a);
+      .Double(1, color[0])
+      .Double(2, color[1])
+      .Double(3, color[2])
+      .Double(4, color[3]);
 }
 
 // Returns a foxglove.Vector3 or Point3, which have the same fields.

@@ -6,6 +6,7 @@
 #include "plumbline/geometry/se3.h"
 #include "plumbline/geometry/segment.h"
 
+#include <array>
 #include <bit>
 #include <concepts>
 #include <cstddef>
@@ -98,10 +99,6 @@ class ProtobufWriter {
 inline constexpr std::string_view kMapFrame = "map";
 inline constexpr std::string_view kCameraFrame = "camera";
 
-struct Rgba {
-  double r = 0, g = 0, b = 0, a = 1;
-};
-
 // Returns a google.protobuf.Timestamp.
 ProtobufWriter StampMessage(std::int64_t stamp_ns);
 // Returns a foxglove.Pose of a frame in its parent.
@@ -123,8 +120,8 @@ std::string TransformMessage(std::int64_t stamp_ns, const Rigid3& world_from_cam
 struct ImageMarks {
   std::vector<Eigen::Vector2d> points;
   std::vector<Segment2> segments;
-  Rgba color;
-  double thickness = 1;  // in pixels
+  std::array<double, 4> color{0, 0, 0, 1};  // red, green, blue and opacity
+  double thickness = 1;                     // in pixels
 };
 std::string AnnotationsMessage(std::int64_t stamp_ns, std::span<const ImageMarks> marks);
 

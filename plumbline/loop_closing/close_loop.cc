@@ -231,7 +231,7 @@ Expected<LoopCorrection, ClosingRefusal> CloseLoop(const Map& map,
     return ClosingRefusal::kBendsOdometry;
   }
   for (std::size_t e = 0; e < odometry; ++e) {
-    if (solved.chi2[e] > options.closing.max_odometry_chi2) return ClosingRefusal::kBendsOdometry;
+    if (solved.chi2[e] > options.max_odometry_chi2) return ClosingRefusal::kBendsOdometry;
   }
   LoopCorrection out;
   for (const int place : earlier_places) {

@@ -76,7 +76,7 @@ class Evaluator {
         inverse_(Inverse(candidate_from_query)),
         turn_(candidate_from_query.scale * candidate_from_query.rotation.toRotationMatrix()) {}
 
-  bool operator()(const AlignmentProblem::PointPair& pair, bool derivative, Residual& out) const {
+  bool operator()(const LandmarkPair<CameraPoint>& pair, bool derivative, Residual& out) const {
     const Eigen::Vector3d p = s_ * pair.in_query.place;
     const Eigen::Vector3d& q = pair.in_candidate.place;
     if (!(p.z() > kNearest && q.z() > kNearest)) return false;
@@ -91,7 +91,7 @@ class Evaluator {
     return Whiten<3>(covariance, r, &J, out);
   }
 
-  bool operator()(const AlignmentProblem::LinePair& pair, bool derivative, Residual& out) const {
+  bool operator()(const LandmarkPair<LineModel>& pair, bool derivative, Residual& out) const {
     const PluckerLine& from = pair.in_query.line;
     const PluckerLine& to = pair.in_candidate.line;
     if (!((s_.rotation * from.direction).dot(to.direction) > 0)) return false;
@@ -157,7 +157,7 @@ class Evaluator {
 
   // Returns two parameters along the query's line: the ends of the overlap of both intervals, or
   // those of its own interval if they overlap too little.
-  std::array<double, 2> PlacesOnBoth(const AlignmentProblem::LinePair& pair) const {
+  std::array<double, 2> PlacesOnBoth(const LandmarkPair<LineModel>& pair) const {
     const LineModel& query = pair.in_query;
     const LineModel& candidate = pair.in_candidate;
     const auto place = [&](double t) {
@@ -230,8 +230,8 @@ class MatchProblem {
   std::size_t size() const { return problem_.points.size() + problem_.lines.size(); }
 
   std::vector<Model> Solve(const std::array<std::size_t, kSampleSize>& sample) const {
-    std::vector<AlignmentProblem::PointPair> points;
-    std::vector<AlignmentProblem::LinePair> lines;
+    std::vector<LandmarkPair<CameraPoint>> points;
+    std::vector<LandmarkPair<LineModel>> lines;
     for (const std::size_t i : sample) {
       if (i < problem_.points.size()) {
         points.push_back(problem_.points[i]);
@@ -391,8 +391,8 @@ std::optional<AlignmentResult> RefineAlignment(const AlignmentProblem& problem,
   return result;
 }
 
-std::optional<Similarity3> AlignSample(std::span<const AlignmentProblem::PointPair> points,
-                                       std::span<const AlignmentProblem::LinePair> lines,
+std::optional<Similarity3> AlignSample(std::span<const LandmarkPair<CameraPoint>> points,
+                                       std::span<const LandmarkPair<LineModel>> lines,
                                        bool free_scale) {
   TurnedVectors vectors;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -4,6 +4,7 @@
 
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/sim3.h"
+#include "plumbline/loop_closing/loop_edge.h"
 #include "plumbline/map/landmarks.h"
 #include "plumbline/optimization/problem.h"
 
@@ -27,12 +28,6 @@ struct CameraPoint {
 
 // The matches between the landmarks and images of the two cameras.
 struct AlignmentProblem {
-  struct PointPair {
-    CameraPoint in_query, in_candidate;
-  };
-  struct LinePair {
-    LineModel in_query, in_candidate;
-  };
   // An observation by one of the two cameras of a point whose position only the other one knows.
   struct Sighting {
     bool known_to_query = true;
@@ -42,8 +37,8 @@ struct AlignmentProblem {
 
   RectifiedCamera camera;
   bool free_scale = false;  // true with one camera, whose scale is unknown
-  std::vector<PointPair> points;
-  std::vector<LinePair> lines;
+  std::vector<LandmarkPair<CameraPoint>> points;
+  std::vector<LandmarkPair<LineModel>> lines;
   std::vector<Sighting> sightings;
 };
 
@@ -90,8 +85,8 @@ std::optional<AlignmentResult> RefineAlignment(const AlignmentProblem& problem,
 //
 // Returns nullopt if the matches are degenerate (collinear points, parallel lines alone, coplanar
 // lines with free scale), or if the scale is negative.
-std::optional<Similarity3> AlignSample(std::span<const AlignmentProblem::PointPair> points,
-                                       std::span<const AlignmentProblem::LinePair> lines,
+std::optional<Similarity3> AlignSample(std::span<const LandmarkPair<CameraPoint>> points,
+                                       std::span<const LandmarkPair<LineModel>> lines,
                                        bool free_scale);
 
 }  // namespace plumbline

@@ -112,7 +112,7 @@ class LoopCloser::Drifts {
 };
 
 LoopCloser::LoopCloser(const CameraAndPyramid& imaging, const LoopOptions& options)
-    : imaging_(imaging), options_(options), covisible_(options.closing.strong_covisibility) {}
+    : imaging_(imaging), options_(options), covisible_(options.strong_covisibility) {}
 
 std::vector<KeyFrameId> LoopCloser::WorthTrying(const Map& map,
                                                 KeyFrameId newest,
@@ -120,10 +120,10 @@ std::vector<KeyFrameId> LoopCloser::WorthTrying(const Map& map,
   const ShownLandmarks shown(map.Find(newest)->frame);
   std::vector<KeyFrameId> worth;
   for (const KeyFrameId id : candidates) {
-    if (static_cast<int>(worth.size()) >= options_.closing.max_candidates) break;
+    if (static_cast<int>(worth.size()) >= options_.max_candidates) break;
     const KeyFrame* candidate = map.Find(id);
     if (id == newest || candidate == nullptr) continue;
-    if (shown.SharedWith(candidate->frame) < options_.closing.min_shared) worth.push_back(id);
+    if (shown.SharedWith(candidate->frame) < options_.min_shared) worth.push_back(id);
   }
   return worth;
 }
@@ -150,7 +150,7 @@ std::optional<LoopClosure> LoopCloser::Try(const Map& map,
 // Numbers of keyframes are those of their map: in another map there is nothing to wait for.
 bool LoopCloser::IsPausing(const Map& map, KeyFrameId newest) const {
   return last_closed_.valid() && map.Knows(last_closed_) &&
-         map.NumberOf(newest) < map.NumberOf(last_closed_) + options_.closing.pause;
+         map.NumberOf(newest) < map.NumberOf(last_closed_) + options_.pause;
 }
 
 std::optional<LoopClosure> LoopCloser::TryCandidate(const Map& map,
@@ -204,7 +204,7 @@ bool LoopCloser::Supported(const Map& map, const EssentialGraph& essential, Loop
   attempt.beyond_drift = attempt.drift_chi2 > options_.drift.max_chi2;
   if (attempt.beyond_drift) return false;
   attempt.uncertain = LargestSigma(edge.covariance.topLeftCorner<3, 3>()) >
-                      options_.closing.max_rotation_sigma_deg * kDegree;
+                      options_.max_rotation_sigma_deg * kDegree;
   if (attempt.uncertain) return false;
   attempt.inconsistent = !AgreesWithTheOthers(map, essential, *newest, odometry);
   if (attempt.inconsistent) return false;

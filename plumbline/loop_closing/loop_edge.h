@@ -50,10 +50,11 @@ struct LoopEvidence {
   int confirmed = 0;  // asked keyframes that agree
 };
 
-// Two landmarks, around the query and around the candidate, that are the same in the world.
-template <class LandmarkId>
+// Two landmarks, around the query and around the candidate, that are the same in the world, by id
+// or as models.
+template <class Landmark>
 struct LandmarkPair {
-  LandmarkId in_query, in_candidate;
+  Landmark in_query, in_candidate;
 
   friend auto operator<=>(const LandmarkPair&, const LandmarkPair&) = default;
 };

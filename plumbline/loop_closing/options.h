@@ -44,7 +44,11 @@ struct DriftOptions {
   double max_chi2 = 24.3;            // 99.9 % of chi2 with seven degrees of freedom
 };
 
-struct LoopClosingOptions {
+struct LoopOptions {
+  bool enabled = true;
+  LoopVerificationOptions verification;
+  DriftOptions drift;
+  // Constants of closing a loop:
   int strong_covisibility = 60;  // least number of shared landmarks for an edge of the pose graph
   int max_candidates = 3;        // candidates to be tried
   // Least number of landmarks shared with the query for which a candidate is no loop any more.
@@ -54,13 +58,6 @@ struct LoopClosingOptions {
   // drift is too large, would follow it further than it should.
   double max_rotation_sigma_deg = 0.5;
   double max_odometry_chi2 = 24.3;  // limit for one edge of odometry after the correction
-};
-
-struct LoopOptions {
-  bool enabled = true;
-  LoopVerificationOptions verification;
-  DriftOptions drift;
-  LoopClosingOptions closing;
 };
 
 template <class Visitor>

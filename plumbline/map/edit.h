@@ -57,12 +57,12 @@ struct MoveFeatures {
 };
 
 // Adds a landmark with its observations.
-struct AddPoint {
-  MapPoint point;
+template <class Landmark>
+struct AddLandmark {
+  Landmark landmark;
 };
-struct AddLine {
-  MapLine line;
-};
+using AddPoint = AddLandmark<MapPoint>;
+using AddLine = AddLandmark<MapLine>;
 template <class Id>
 struct Remove {
   Id id;

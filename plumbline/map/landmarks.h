@@ -115,18 +115,15 @@ struct TrackingScores {
   std::map<LineId, TrackingScore> lines;
 };
 
-struct MapPoint : PointModel {
-  PointId id;
+// A landmark of a map.
+template <class Model, class Id>
+struct MapLandmark : Model {
+  Id id;
   KeyFrameId created_by;
   Observations observations;
   TrackingScore score;
 };
-
-struct MapLine : LineModel {
-  LineId id;
-  KeyFrameId created_by;
-  Observations observations;
-  TrackingScore score;
-};
+using MapPoint = MapLandmark<PointModel, PointId>;
+using MapLine = MapLandmark<LineModel, LineId>;
 
 }  // namespace plumbline

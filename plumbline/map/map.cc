@@ -268,8 +268,10 @@ struct MapChanger {
     }
   }
 
-  void Do(const edit::AddPoint& change) { Add(change.point.id, change.point, map.next_point_); }
-  void Do(const edit::AddLine& change) { Add(change.line.id, change.line, map.next_line_); }
+  void Do(const edit::AddPoint& change) {
+    Add(change.landmark.id, change.landmark, map.next_point_);
+  }
+  void Do(const edit::AddLine& change) { Add(change.landmark.id, change.landmark, map.next_line_); }
   void Do(const edit::RemovePoint& change) { Remove(change.id); }
   void Do(const edit::RemoveLine& change) { Remove(change.id); }
   void Do(const edit::MovePoint& change) {

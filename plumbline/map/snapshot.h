@@ -13,15 +13,13 @@
 namespace plumbline {
 
 // A landmark as tracking needs it.
-struct SnapshotPoint : PointModel {
-  PointId id;
+template <class Model, class Id>
+struct SnapshotLandmark : Model {
+  Id id;
   int observation_count = 0;
 };
-
-struct SnapshotLine : LineModel {
-  LineId id;
-  int observation_count = 0;
-};
+using SnapshotPoint = SnapshotLandmark<PointModel, PointId>;
+using SnapshotLine = SnapshotLandmark<LineModel, LineId>;
 
 // Immutable copy of the part of the map around one keyframe, which tracking reads while mapping
 // goes on.

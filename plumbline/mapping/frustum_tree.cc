@@ -128,17 +128,19 @@ bool FrustumTree::MaySee(const Node& node,
   return !(node.axis.dot(to_target) < distance * (cos_widened - kConeMargin));
 }
 
-std::vector<int> FrustumTree::MayShow(const Wanted& wanted) const {
+std::vector<int> FrustumTree::MayShow(const Segment3& segment,
+                                      double min_length_px,
+                                      double max_distance) const {
   std::vector<int> found;
   if (nodes_.empty()) return found;
-  const Eigen::Vector3d middle = wanted.segment.Midpoint();
-  const double length = wanted.segment.Length();
+  const Eigen::Vector3d middle = segment.Midpoint();
+  const double length = segment.Length();
   const double radius = 0.5 * length * (1 + kConeMargin);
   // The whole segment is at least `distance - radius` away, which limits the angle under which it
   // is seen.
-  double reach = wanted.max_distance;
-  if (wanted.min_length_px > 0) {
-    reach = std::min(reach, radius + length * px_per_radian_ / wanted.min_length_px);
+  double reach = max_distance;
+  if (min_length_px > 0) {
+    reach = std::min(reach, radius + length * px_per_radian_ / min_length_px);
   }
   std::vector<int> open{0};
   while (!open.empty()) {

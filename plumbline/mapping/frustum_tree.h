@@ -18,14 +18,6 @@ namespace plumbline {
 // of them: a tree whose nodes bound the positions and viewing directions of their cameras.
 class FrustumTree {
  public:
-  // Query: a segment, and limits on its image length and distance.
-  struct Wanted {
-    Segment3 segment;          // in the world
-    double min_length_px = 0;  // its image must be longer than this
-    // Largest distance of its midpoint from the camera.
-    double max_distance = std::numeric_limits<double>::infinity();
-  };
-
   // The map must outlive the tree, and its keyframes must not move. O(n log n).
   FrustumTree(const Map& map, const RectifiedCamera& camera);
 
@@ -34,11 +26,15 @@ class FrustumTree {
   int IndexOf(KeyFrameId id) const;
   const KeyFrame& keyframe(int index) const { return *keyframes_[static_cast<std::size_t>(index)]; }
 
-  // Returns the indices, ascending, of all keyframes that show the segment as wanted, and of some
+  // Returns the indices, ascending, of all keyframes that show a segment of the world, and of some
   // that do not: those whose field of view, approximated by a cone, meets the ball around the
   // segment, and which are near enough for a segment across the line of sight to be long enough.
   // O(log n + found) for evenly spread cameras.
-  std::vector<int> MayShow(const Wanted& wanted) const;
+  //   min_length_px  the segment's image must be longer than this
+  //   max_distance   largest distance of its midpoint from the camera
+  std::vector<int> MayShow(const Segment3& segment,
+                           double min_length_px = 0,
+                           double max_distance = std::numeric_limits<double>::infinity()) const;
 
  private:
   // The cameras `begin` to `end` of order_. The children of a node are the next node, and `second`.

@@ -145,9 +145,7 @@ double FoundRatio(const FrustumTree& views,
                   const Sightings& sightings) {
   constexpr double kMinLengthPx = 30;
   std::size_t expected = sightings.keyframes.size();
-  for (const int index : views.MayShow({.segment = segment,
-                         .min_length_px = kMinLengthPx,
-                         .max_distance = sightings.furthest})) {
+  for (const int index : views.MayShow(segment, kMinLengthPx, sightings.furthest)) {
     const KeyFrame& keyframe = views.keyframe(index);
     if (sightings.keyframes.contains(keyframe.id)) continue;
     if (MiddleDistance(keyframe.frame, segment) > sightings.furthest) continue;

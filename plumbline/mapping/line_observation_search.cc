@@ -106,7 +106,7 @@ std::vector<LineSupport> LineSupportSearch::Find(const LineHypothesis& hypothesi
   const Segment3 segment = SegmentOf(hypothesis.line, hypothesis.interval);
   const UncertainLine uncertain(hypothesis.line, hypothesis.information);
   std::vector<LineSupport> supports;
-  for (const int index : views_.MayShow({.segment = segment, .min_length_px = kMinLengthPx})) {
+  for (const int index : views_.MayShow(segment, kMinLengthPx)) {
     const KeyFrame& keyframe = views_.keyframe(index);
     const Rigid3& pose = keyframe.frame.cam_from_world;
     const Segment3 in_camera{pose * segment.start, pose * segment.end};

@@ -234,9 +234,9 @@ void LocalMapper::AddToProbation(MapId map, const MapEdit& edit) {
   LandmarkIds& young = young_[map];
   for (const MapChange& change : edit) {
     if (const auto* point = std::get_if<edit::AddPoint>(&change)) {
-      young.points.push_back(point->point.id);
+      young.points.push_back(point->landmark.id);
     } else if (const auto* line = std::get_if<edit::AddLine>(&change)) {
-      young.lines.push_back(line->line.id);
+      young.lines.push_back(line->landmark.id);
     }
   }
 }

@@ -4,6 +4,7 @@
 
 #include "plumbline/image/image_codecs.h"
 #include "plumbline/image/opencv_bridge.h"
+#include "plumbline/io/png.h"
 
 #include <algorithm>
 
@@ -30,6 +31,11 @@ std::string SmallJpegOf(const GrayImage& image) {
   return EncodeJpeg(pixels, kJpegQuality);
 }
 
+constexpr Color kMatchedPoint{0, 230, 0};
+constexpr Color kFreePoint{150, 150, 150};
+constexpr Color kMatchedLine{255, 140, 0};
+constexpr Color kFreeLine{70, 130, 255};
+
 }  // namespace
 
 SampleImage MakeSampleImage(const FrameView& view, const std::string& file) {
@@ -49,6 +55,20 @@ SampleImage MakeSampleImage(const FrameView& view, const std::string& file) {
     (matched ? sample.matched_lines : sample.other_lines).push_back(features.lines[i].segment);
   }
   return sample;
+}
+
+void WriteFeatureOverlay(const FrameView& view, const std::filesystem::path& path) {
+  const Features features = MeasuredFeatures(*view.frame.indexed);
+  Overlay overlay;
+  for (std::size_t i = 0; i < features.points.size(); ++i) {
+    const bool matched = view.frame.points[i].valid();
+    overlay.points.push_back({features.points[i].px, matched ? kMatchedPoint : kFreePoint});
+  }
+  for (std::size_t i = 0; i < features.lines.size(); ++i) {
+    const bool matched = view.frame.lines[i].valid();
+    overlay.segments.push_back({features.lines[i].segment, matched ? kMatchedLine : kFreeLine});
+  }
+  WriteOverlayPng(path, view.images.left, overlay);
 }
 
 }  // namespace plumbline

@@ -5,6 +5,7 @@
 #include "plumbline/geometry/segment.h"
 #include "plumbline/slam/system.h"
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@
 
 namespace plumbline {
 
-// The rectified left image of one frame with its features, for report.html.
+// The rectified left image of one frame with its features.
 struct SampleImage {
   FrameId frame;
   std::string file;           // name of the overlay image of the same frame
@@ -24,5 +25,9 @@ struct SampleImage {
 
 // Makes the sample of the last processed frame. Cost: encoding the image, some milliseconds.
 SampleImage MakeSampleImage(const FrameView& view, const std::string& file);
+
+// Writes the rectified left image of the last frame as PNG with its features: matched points green,
+// others grey; matched lines orange, others blue.
+void WriteFeatureOverlay(const FrameView& view, const std::filesystem::path& path);
 
 }  // namespace plumbline

@@ -113,9 +113,9 @@ MapEdit NumberedFor(const Map& map, MapEdit edit) {
   const auto number_line = [&](LineId& id) { id.value += map.NextLineId().value; };
   for (MapChange& change : edit) {
     if (auto* point = std::get_if<edit::AddPoint>(&change)) {
-      number_point(point->point.id);
+      number_point(point->landmark.id);
     } else if (auto* line = std::get_if<edit::AddLine>(&change)) {
-      number_line(line->line.id);
+      number_line(line->landmark.id);
     } else if (auto* new_point = std::get_if<edit::RefreshPoint>(&change)) {
       number_point(new_point->id);
     } else if (auto* new_line = std::get_if<edit::RefreshLine>(&change)) {

@@ -69,8 +69,8 @@ Parts Agreeing(const Map& map,
                const std::vector<LoopEdge>& edges,
                bool free_scale,
                const LoopOptions& options) {
-  const EssentialGraph essential = MakeEssentialGraph(
-      map, free_scale, AsARule(options.drift), options.closing.strong_covisibility);
+  const EssentialGraph essential =
+      MakeEssentialGraph(map, free_scale, AsARule(options.drift), options.strong_covisibility);
   std::vector<PoseGraphEdge> loops;
   for (const LoopEdge& edge : edges) loops.push_back(*LoopAsEdge(map, essential, edge));
   OdometryWays odometry(essential);
@@ -108,13 +108,12 @@ bool Bend(const std::vector<LoopEdge>& edges,
           bool free_scale,
           const LoopOptions& options,
           Map& map) {
-  const auto bent =
-      CloseLoop(map,
-                MakeEssentialGraph(
-                    map, free_scale, AsARule(options.drift), options.closing.strong_covisibility),
-                std::span(edges).subspan(1),
-                edges.front(),
-                options);
+  const auto bent = CloseLoop(
+      map,
+      MakeEssentialGraph(map, free_scale, AsARule(options.drift), options.strong_covisibility),
+      std::span(edges).subspan(1),
+      edges.front(),
+      options);
   if (!bent) return false;
   map.Apply(bent->edit);
   for (const LoopEdge& edge : std::span(edges).subspan(1)) {
@@ -204,11 +203,8 @@ Expected<MergedMaps, MergeRefusal> MergeMaps(const Atlas& atlas,
   if (!Bend(*overlap, free_scale, options.loop, map)) return MergeRefusal::kContradicted;
   const std::vector<KeyFrameId> ids = KeyFramesOf(of_first);
   LocalMapper mapper(imaging, options.lines, options.mapping);
-  merged.ties = TieAll({ids.begin(), ids.end()},
-                       KeyFramesOf(of_second),
-                       options.loop.closing.min_shared,
-                       mapper,
-                       map);
+  merged.ties = TieAll(
+      {ids.begin(), ids.end()}, KeyFramesOf(of_second), options.loop.min_shared, mapper, map);
   mapper.Finish(map);
   return merged;
 }

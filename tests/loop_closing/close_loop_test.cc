@@ -210,7 +210,7 @@ struct Closed {
 class UndoLoopTest : public ::testing::Test {
  protected:
   UndoLoopTest() {
-    options_.closing.pause = 0;
+    options_.pause = 0;
     closer_ = std::make_unique<LoopCloser>(scene_.Imaging(), options_);
   }
 

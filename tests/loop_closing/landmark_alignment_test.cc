@@ -196,8 +196,8 @@ TEST(AlignByRansac, NeedsThreeMatches) {
 
 struct Sample {
   Similarity3 truth;
-  std::vector<AlignmentProblem::PointPair> points;
-  std::vector<AlignmentProblem::LinePair> lines;
+  std::vector<LandmarkPair<CameraPoint>> points;
+  std::vector<LandmarkPair<LineModel>> lines;
 
   Sample(Rng& rng, double scale) {
     const Rigid3 rigid = RandomRigid(rng);

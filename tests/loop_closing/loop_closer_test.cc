@@ -116,7 +116,7 @@ TEST(LoopCloser, DoesWhatANewOneDoesWhenTheMapHasChanged) {
 TEST(LoopCloser, WaitsForALoopThatIsKnownWell) {
   const LoopScene scene = Drifted();
   LoopOptions options;
-  options.closing.max_rotation_sigma_deg = 0.01;
+  options.max_rotation_sigma_deg = 0.01;
   LoopCloser strict(scene.Imaging(), options);
   const std::vector<KeyFrameId> candidates{KeyFrameId{5}};
   EXPECT_FALSE(strict.Try(scene.map, kQuery, candidates));

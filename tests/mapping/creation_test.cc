@@ -81,13 +81,13 @@ TEST(CreateFromDepth, FillsUpWithTheBestKnownOfPoorDepths) {
       Only<edit::AddPoint>(CreateFromDepth(scene.map, world.Imaging(), id, options));
   ASSERT_EQ(points.size(), 10U);
   double worst = 0;
-  for (const auto& add : points) worst = std::max(worst, relative_sigma(add.point));
+  for (const auto& add : points) worst = std::max(worst, relative_sigma(add.landmark));
   options.min_depth_points = 100000;
   int better = 0;
   for (const auto& add :
        Only<edit::AddPoint>(CreateFromDepth(scene.map, world.Imaging(), id, options))) {
-    EXPECT_LE(relative_sigma(add.point), 0.3);
-    better += relative_sigma(add.point) <= worst;
+    EXPECT_LE(relative_sigma(add.landmark), 0.3);
+    better += relative_sigma(add.landmark) <= worst;
   }
   EXPECT_EQ(better, 10);
 }
@@ -113,19 +113,19 @@ TEST(CreateFromDepth, MakesALandmarkOfEveryFreeFeatureWithGoodDepth) {
   EXPECT_EQ(points.size(), free_points);
   EXPECT_GT(lines.size(), 5U);
   for (const auto& add : points) {
-    EXPECT_EQ(add.point.created_by, id);
-    EXPECT_EQ(add.point.observations.size(), 1U);
-    const auto truths = Truths(scene, add.point, &SyntheticFrame::point_truth);
+    EXPECT_EQ(add.landmark.created_by, id);
+    EXPECT_EQ(add.landmark.observations.size(), 1U);
+    const auto truths = Truths(scene, add.landmark, &SyntheticFrame::point_truth);
     const Eigen::Vector3d truth = world.points[*truths.begin()].position;
-    EXPECT_LT((add.point.position - truth).norm(), 0.1 * truth.norm());
+    EXPECT_LT((add.landmark.position - truth).norm(), 0.1 * truth.norm());
   }
   for (const auto& add : lines) {
-    const auto truths = Truths(scene, add.line, &SyntheticFrame::line_truth);
+    const auto truths = Truths(scene, add.landmark, &SyntheticFrame::line_truth);
     const Segment3& truth = world.lines[*truths.begin()].segment;
-    EXPECT_LT(LineError(add.line.line, truth), 0.2 * truth.start.norm());
-    EXPECT_GT(add.line.line.direction.dot(truth.Direction()), 0.8);
-    EXPECT_LT(add.line.start, add.line.end);
-    EXPECT_GT(add.line.information.trace(), 0);
+    EXPECT_LT(LineError(add.landmark.line, truth), 0.2 * truth.start.norm());
+    EXPECT_GT(add.landmark.line.direction.dot(truth.Direction()), 0.8);
+    EXPECT_LT(add.landmark.start, add.landmark.end);
+    EXPECT_GT(add.landmark.information.trace(), 0);
   }
   scene.map.Apply(edit);
   scene.map.CheckInvariants();
@@ -143,13 +143,13 @@ TEST(CreatePointsFromViews, TriangulatesWhatTwoKeyFramesShow) {
     EXPECT_GT(points.size(), 80U);
     std::size_t wrong = 0;
     for (const auto& add : points) {
-      EXPECT_EQ(add.point.observations.size(), 2U);
-      const auto truths = Truths(scene, add.point, &SyntheticFrame::point_truth);
+      EXPECT_EQ(add.landmark.observations.size(), 2U);
+      const auto truths = Truths(scene, add.landmark, &SyntheticFrame::point_truth);
       wrong += truths.size() != 1;
       const Eigen::Vector3d& truth = world.points[*truths.begin()].position;
-      EXPECT_LT((add.point.position - truth).norm(), 0.05 * truth.norm());
-      EXPECT_GT(add.point.reference_distance, 1);
-      EXPECT_NEAR(add.point.view_direction.norm(), 1, 1e-9);
+      EXPECT_LT((add.landmark.position - truth).norm(), 0.05 * truth.norm());
+      EXPECT_GT(add.landmark.reference_distance, 1);
+      EXPECT_NEAR(add.landmark.view_direction.norm(), 1, 1e-9);
     }
     EXPECT_EQ(wrong, 0U);
     scene.map.Apply(edit);
@@ -183,8 +183,8 @@ TEST(CreatePointsFromViews, WorksInAnyUnit) {
         CreatePointsFromViews(Rescaled(scene.map, factor), world.Imaging(), KeyFrameId{1}, {}));
     ASSERT_EQ(scaled.size(), metric.size()) << factor;
     for (std::size_t i = 0; i < scaled.size(); ++i) {
-      const Eigen::Vector3d position = scaled[i].point.position / factor;
-      EXPECT_LT((position - metric[i].point.position).norm(), 1e-3) << factor;
+      const Eigen::Vector3d position = scaled[i].landmark.position / factor;
+      EXPECT_LT((position - metric[i].landmark.position).norm(), 1e-3) << factor;
     }
   }
 }
@@ -219,14 +219,14 @@ TEST(CreateLinesFromViews, ReconstructsFromAllViews) {
   std::size_t wrong = 0;
   std::size_t exact = 0;
   for (const auto& add : lines) {
-    of_three += add.line.observations.size() == 3;
-    const auto truths = Truths(scene, add.line, &SyntheticFrame::line_truth);
+    of_three += add.landmark.observations.size() == 3;
+    const auto truths = Truths(scene, add.landmark, &SyntheticFrame::line_truth);
     wrong += truths.size() != 1;
     const Segment3& truth = world.lines[*truths.begin()].segment;
-    exact += LineError(add.line.line, truth) < 0.05 * truth.start.norm();
-    EXPECT_GT(add.line.line.direction.dot(truth.Direction()), 0.7);
-    EXPECT_LT(add.line.start, add.line.end);
-    EXPECT_NEAR(add.line.view_direction.norm(), 1, 1e-9);
+    exact += LineError(add.landmark.line, truth) < 0.05 * truth.start.norm();
+    EXPECT_GT(add.landmark.line.direction.dot(truth.Direction()), 0.7);
+    EXPECT_LT(add.landmark.start, add.landmark.end);
+    EXPECT_NEAR(add.landmark.view_direction.norm(), 1, 1e-9);
   }
   EXPECT_EQ(wrong, 0U);
   EXPECT_GT(of_three, lines.size() / 3);
@@ -267,7 +267,7 @@ TEST(CreateLinesFromViews, DropsAViewThatContradictsTheOthers) {
   std::size_t from_the_right_pair = 0;
   for (const auto& add : Only<edit::AddLine>(edit)) {
     from_the_right_pair +=
-        add.line.observations.size() == 2 && add.line.observations.contains(KeyFrameId{1});
+        add.landmark.observations.size() == 2 && add.landmark.observations.contains(KeyFrameId{1});
   }
   EXPECT_GT(from_the_right_pair, good / 2);
 }

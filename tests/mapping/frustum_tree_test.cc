@@ -45,7 +45,7 @@ TEST(FrustumTree, LeavesOutNoKeyFrameThatShowsTheSegment) {
       const Segment3 segment = RandomSegment(rng);
       const double min_length = rng.Uniform() < 0.5 ? 5 : 30;
       const double max_distance = rng.Uniform() < 0.5 ? 40 : 1e9;
-      const std::vector<int> candidates = tree.MayShow({segment, min_length, max_distance});
+      const std::vector<int> candidates = tree.MayShow(segment, min_length, max_distance);
       ASSERT_TRUE(std::is_sorted(candidates.begin(), candidates.end()));
       found += candidates.size();
       for (int k = 0; k < static_cast<int>(tree.size()); ++k) {
@@ -66,9 +66,9 @@ TEST(FrustumTree, PassesOverWhatIsFarAway) {
   const Map map = ScatteredMap(200, 2);
   const FrustumTree tree(map, TestCamera());
   const Segment3 far{{1e4, 0, 0}, {1e4, 1, 0}};
-  EXPECT_TRUE(tree.MayShow({far, 5}).empty());
-  EXPECT_FALSE(tree.MayShow({far, 0}).empty());
-  EXPECT_TRUE(tree.MayShow({.segment = far, .max_distance = 5000}).empty());
+  EXPECT_TRUE(tree.MayShow(far, 5).empty());
+  EXPECT_FALSE(tree.MayShow(far, 0).empty());
+  EXPECT_TRUE(tree.MayShow(far, 0, 5000).empty());
 }
 
 TEST(FrustumTree, TellsKeyFramesById) {
@@ -85,7 +85,7 @@ TEST(FrustumTree, HasNothingOfAnEmptyMap) {
   const Map map;
   const FrustumTree tree(map, TestCamera());
   EXPECT_EQ(tree.size(), 0U);
-  EXPECT_TRUE(tree.MayShow({{{0, 0, 1}, {0, 1, 1}}, 5}).empty());
+  EXPECT_TRUE(tree.MayShow({{0, 0, 1}, {0, 1, 1}}, 5).empty());
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/trajectory_io.h"
-#include "plumbline/report/overlay.h"
 #include "plumbline/report/run_files.h"
+#include "plumbline/report/sample_image.h"
 #include "plumbline/report/summary.h"
 #include "plumbline/report/timing.h"
 #include "plumbline/slam/pipeline.h"

@@ -64,7 +64,7 @@ TEST(MethodFor, MakesLinesOfPairsWhereTwoViewsAreAskedFor) {
     for (const MapChange& change :
          CreateLinesFromViews(scene.map, world.Imaging(), KeyFrameId{2}, lines)) {
       const auto* add = std::get_if<edit::AddLine>(&change);
-      if (add != nullptr) most = std::max(most, add->line.observations.size());
+      if (add != nullptr) most = std::max(most, add->landmark.observations.size());
     }
     return most;
   };
