@@ -5,7 +5,6 @@
 #include "plumbline/base/error.h"
 #include "plumbline/image/color_image.h"
 #include "plumbline/image/image.h"
-#include "plumbline/io/image_header.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +13,26 @@
 #include <string>
 
 namespace plumbline {
+
+struct ImageSize {
+  int width = 0, height = 0;
+
+  friend bool operator==(const ImageSize&, const ImageSize&) = default;
+};
+
+// Returns the size in the header of a PNG, JPEG, WebP, PGM, PPM, PBM, BMP or TIFF file, without
+// decoding: a file of a megabyte may contain an image of gigabytes. Returns nullopt for files of
+// another kind, and if the header is broken or the size is zero.
+std::optional<ImageSize> SizeInHeader(std::span<const std::uint8_t> bytes);
+
+// Returns true for a PNG file with one channel of 16 bits, or a PGM file with levels beyond 255,
+// which are stored in 16 bits. The first bytes of the file are enough.
+bool IsGreyOf16Bits(std::span<const std::uint8_t> bytes);
+
+// Returns the EXIF orientation, 1 to 8, of a JPEG, PNG, WebP or TIFF file; 1, as stored, if it has
+// none. Of JPEG and PNG files the first bytes are enough: data after the pixels of a PNG file are
+// ignored.
+int ExifOrientation(std::span<const std::uint8_t> bytes);
 
 // Failure to read an image file.
 struct ImageFailure {
@@ -26,11 +45,11 @@ struct ImageFailure {
 // Returns the size in the header of an image file. Fails like ReadGrayImage.
 Expected<ImageSize, ImageFailure> ReadImageSize(const std::filesystem::path& path);
 
-// Returns the EXIF orientation of a file (image_header.h); 1, as stored, if it cannot be read.
+// Returns the EXIF orientation of a file (ExifOrientation); 1, as stored, if it cannot be read.
 int ReadExifOrientation(const std::filesystem::path& path);
 
 // Decodes an 8-bit grey image. Colour is converted by 0.299 R + 0.587 G + 0.114 B, in the same way
-// for all file types (those of image_header.h). Images of 16 bits keep the upper 8. The image is as
+// for all file types (those of SizeInHeader). Images of 16 bits keep the upper 8. The image is as
 // stored, regardless of its EXIF orientation (ReadExifOrientation). An image whose header has a
 // size other than `wanted`, or above kMostPixels, is not decoded.
 Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& path,

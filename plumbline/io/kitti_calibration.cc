@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/kitti_calibration.h"
-
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/plausible_calibration.h"
+#include "plumbline/io/camera_formats.h"
 #include "plumbline/io/text_rows.h"
 
 #include <cmath>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/geometry/calibration.h"
-#include "plumbline/io/image_header.h"
+#include "plumbline/io/image_file.h"
 #include "plumbline/live/live_source.h"
 
 #include <chrono>

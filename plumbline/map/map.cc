@@ -268,10 +268,8 @@ struct MapChanger {
     }
   }
 
-  void Do(const edit::AddPoint& change) {
-    Add(change.landmark.id, change.landmark, map.next_point_);
-  }
-  void Do(const edit::AddLine& change) { Add(change.landmark.id, change.landmark, map.next_line_); }
+  void Do(const edit::AddPoint& c) { Add(c.landmark.id, c.landmark, map.next_point_); }
+  void Do(const edit::AddLine& c) { Add(c.landmark.id, c.landmark, map.next_line_); }
   void Do(const edit::RemovePoint& change) { Remove(change.id); }
   void Do(const edit::RemoveLine& change) { Remove(change.id); }
   void Do(const edit::MovePoint& change) {
@@ -291,11 +289,9 @@ struct MapChanger {
   void Do(const edit::RemoveLineObservation& c) { Unobserve(c.id, c.keyframe); }
   void Do(const edit::MergePoints& change) { Merge(change.kept, change.gone); }
   void Do(const edit::MergeLines& change) { Merge(change.kept, change.gone); }
-  void Do(const edit::RefreshPoint& change) {
-    if (MapPoint* point = FindLandmark(change.id)) RefreshAppearance(map.keyframes_, *point);
-  }
-  void Do(const edit::RefreshLine& change) {
-    if (MapLine* line = FindLandmark(change.id)) RefreshAppearance(map.keyframes_, *line);
+  template <class Id>
+  void Do(const edit::Refresh<Id>& change) {
+    if (auto* landmark = FindLandmark(change.id)) RefreshAppearance(map.keyframes_, *landmark);
   }
   void Do(const edit::ScorePoint& change) { Score(change.id, change.visible, change.found); }
   void Do(const edit::ScoreLine& change) { Score(change.id, change.visible, change.found); }

@@ -4,7 +4,7 @@
 
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
-#include "plumbline/place/signature_table.h"
+#include "plumbline/place/signature_tree.h"
 
 #include <algorithm>
 #include <cmath>

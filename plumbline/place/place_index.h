@@ -4,7 +4,6 @@
 
 #include "plumbline/base/ids.h"
 #include "plumbline/features/types.h"
-#include "plumbline/place/signature_table.h"
 #include "plumbline/place/signature_tree.h"
 
 #include <array>

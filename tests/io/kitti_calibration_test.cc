@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/kitti_calibration.h"
-
+#include "plumbline/io/camera_formats.h"
 #include "plumbline/io/open_dataset.h"
 
 #include "tests/io/dataset_fixtures.h"
