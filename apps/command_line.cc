@@ -39,6 +39,19 @@ bool MayBeRepeated(const CommandOption& option) {
   return option.help.find("may be repeated") != std::string::npos;
 }
 
+bool IsHelp(std::string_view argument) { return argument == "--help" || argument == "-h"; }
+
+// Throws InputError if the argument in the place of a value is an option.
+void CheckValue(const CommandSyntax& syntax,
+                const CommandOption& option,
+                const std::string& argument) {
+  if (FindOption(syntax, argument.substr(0, argument.find('='))) == nullptr) return;
+  throw InputError(fmt::format("{0}: expected {1}, found the option {2}; {0}={2} is a value",
+                               option.name,
+                               option.value,
+                               Printable(argument)));
+}
+
 bool IsAnyNumber(const std::string& positional) { return positional.ends_with(" ...]"); }
 
 bool MayBeLeftOut(const std::string& positional) { return positional.starts_with('['); }
@@ -59,7 +72,7 @@ CommandLine::CommandLine(const CommandSyntax& syntax, std::span<const std::strin
       options_end = true;
       continue;
     }
-    if (argument == "--help" || argument == "-h") {
+    if (IsHelp(argument)) {
       values_["--help"].emplace_back();
       return;
     }
@@ -74,7 +87,9 @@ CommandLine::CommandLine(const CommandSyntax& syntax, std::span<const std::strin
       AddValue(*option, argument.substr(equals + 1));
     } else {
       if (i + 1 == arguments.size()) throw InputError(name + ": expected " + option->value);
-      AddValue(*option, arguments[++i]);
+      if (IsHelp(arguments[i + 1])) continue;
+      CheckValue(syntax, *option, arguments[++i]);
+      AddValue(*option, arguments[i]);
     }
   }
   const auto wanted = syntax.positionals.size();

@@ -50,8 +50,9 @@ class CommandLine {
  public:
   // Throws InputError for an unknown option (with the nearest known one, or the successor of a
   // removed one), a value that is missing, empty or unexpected, a second value of an option that
-  // may not be repeated, or a wrong number of positional arguments. With --help among the arguments
-  // nothing else is checked.
+  // may not be repeated, or a wrong number of positional arguments. A value is missing, too, if an
+  // option of the subcommand follows; `--name=--option` makes it the value. With --help among the
+  // arguments nothing behind it is checked.
   CommandLine(const CommandSyntax& syntax, std::span<const std::string> arguments);
 
   bool help() const { return Has("--help"); }

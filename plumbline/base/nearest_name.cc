@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace plumbline {
@@ -12,6 +13,30 @@ namespace {
 std::string_view LastPart(std::string_view name) {
   const std::size_t dot = name.rfind('.');
   return dot == std::string_view::npos ? name : name.substr(dot + 1);
+}
+
+// Returns the part of a dotted name before its last part; empty without a dot.
+std::string_view GroupOf(std::string_view name) {
+  return name.substr(0, name.size() - LastPart(name).size());
+}
+
+// Returns the candidate of least distance to `name` in the group that is nearest to that of `name`
+// and not too different.
+std::optional<std::string> NearestInGroup(std::string_view name,
+                                          std::span<const std::string> candidates) {
+  const std::string_view group = GroupOf(name);
+  if (group.empty()) return std::nullopt;
+  std::optional<std::string> best;
+  std::pair best_distance(std::max<std::size_t>(2, group.size() / 3) + 1, std::size_t{0});
+  for (const std::string& candidate : candidates) {
+    const std::pair distance(EditDistance(group, GroupOf(candidate)),
+                             EditDistance(LastPart(name), LastPart(candidate)));
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -54,7 +79,7 @@ std::optional<std::string> NearestName(std::string_view name,
       best = candidate;
     }
   }
-  return best;
+  return best ? best : NearestInGroup(name, candidates);
 }
 
 }  // namespace plumbline

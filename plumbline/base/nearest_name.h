@@ -16,7 +16,8 @@ std::size_t EditDistance(std::string_view a, std::string_view b);
 
 // Returns the candidate of least edit distance to `name` (ties: the first); nullopt if all are too
 // different. For dotted names a candidate whose last part is near also counts, so that `seed` finds
-// `slam.seed`.
+// `slam.seed`; if there is none, one of the nearest group does: `trackng.foo` finds a name that
+// begins with `tracking.`.
 std::optional<std::string> NearestName(std::string_view name,
                                        std::span<const std::string> candidates);
 

@@ -74,6 +74,17 @@ TEST(CommandLine, NamesWrongUse) {
   EXPECT_THAT(ParseMessage({}), HasSubstr("do: expected A"));
 }
 
+TEST(CommandLine, MissesAValueWhereAnOptionFollows) {
+  EXPECT_EQ(ParseMessage({"x", "--set", "--quiet"}),
+            "--set: expected K=V, found the option --quiet; --set=--quiet is a value");
+  EXPECT_EQ(ParseMessage({"x", "--count", "--set=a=1"}),
+            "--count: expected N, found the option --set=a=1; --count=--set=a=1 is a value");
+  EXPECT_EQ(Parse({"x", "--set=--quiet"}).Value("--set"), "--quiet");
+  EXPECT_EQ(Parse({"x", "--set", "--other"}).Value("--set"), "--other");
+  EXPECT_EQ(Parse({"x", "--count", "-1"}).Value("--count"), "-1");
+  EXPECT_TRUE(Parse({"--set", "--help"}).help());
+}
+
 TEST(CommandLine, TakesTwoValuesOnlyOfWhatMayBeRepeated) {
   EXPECT_EQ(ParseMessage({"x", "--count", "1", "--count=2"}),
             "--count: expected it once, found '1' and '2'");

@@ -32,6 +32,15 @@ TEST(NearestName, FindsANameWithoutItsGroup) {
   EXPECT_EQ(NearestName("huber_px", names), "ba.huber_px");
 }
 
+TEST(NearestName, FindsANameOfTheMisspelledGroup) {
+  const std::vector<std::string> names = {
+      "slam.seed", "tracking.reference", "tracking.min_initial"};
+  EXPECT_EQ(NearestName("trackng.foo", names), "tracking.reference");
+  EXPECT_EQ(NearestName("tracking.initial", names), "tracking.min_initial");
+  EXPECT_EQ(NearestName("other.foo", names), std::nullopt);
+  EXPECT_EQ(NearestName("foo", names), std::nullopt);
+}
+
 TEST(NearestName, IsSilentWhenNothingIsNear) {
   const std::vector<std::string> names = {"slam.seed", "slam.mode"};
   EXPECT_EQ(NearestName("lines.weighting", names), std::nullopt);
