@@ -134,9 +134,34 @@ std::unique_ptr<JobExecutor> MakeExecutor(const CommandLine& line, int jobs) {
       SlurmOptions{fs::absolute(ReadOut(line)) / "slurm", line.Values("--sbatch")});
 }
 
-void SayMissing(const Plan& plan, bool quiet) {
-  for (const std::string& missing : plan.missing) {
-    if (!quiet) std::clog << "plumbline: no sequence " << missing << " found; left out\n";
+// The plans of a group's experiments. Experiments without a plan have `trouble` set.
+struct PlannedGroup {
+  std::vector<Plan> plans;
+  std::vector<GroupPart> parts;  // in the order of the group
+  std::vector<std::size_t> part_of_plan;
+};
+
+// Reports notes about sequences and settings before the runs.
+void SayNotes(const Plan& plan, bool quiet) {
+  if (quiet) return;
+  if (!plan.missing_note.empty()) std::clog << "plumbline: " << plan.missing_note << '\n';
+  for (const std::string& note : plan.setting_notes) std::clog << "plumbline: " << note << '\n';
+}
+
+// The same for a group. Its report lists the sequences that are missing.
+void SayNotes(const PlannedGroup& group, const std::optional<std::string>& data, bool quiet) {
+  if (quiet) return;
+  bool asked = false, found = false;  // for and of recorded sequences
+  for (const Plan& plan : group.plans) {
+    asked = asked || !plan.missing.empty();
+    found = found || plan.found_recorded;
+  }
+  if (data && asked && !found) {
+    std::clog << fmt::format(
+        "plumbline: {}: no recorded sequence found; there are rendered ones alone\n", *data);
+  }
+  for (const Plan& plan : group.plans) {
+    for (const std::string& note : plan.setting_notes) std::clog << "plumbline: " << note << '\n';
   }
 }
 
@@ -251,13 +276,6 @@ void RefuseFlagsOfRuns(const CommandLine& line, const std::string& name) {
   }
 }
 
-// The plans of a group's experiments. Experiments without a plan have `trouble` set.
-struct PlannedGroup {
-  std::vector<Plan> plans;
-  std::vector<GroupPart> parts;  // in the order of the group
-  std::vector<std::size_t> part_of_plan;
-};
-
 Plan PlanPart(const std::string& name, const CommandLine& line, const std::string& program) {
   const fs::path out = ReadOut(line) / name;
   if (const ComputedExperiment* computed = FindComputedExperiment(name)) {
@@ -305,9 +323,9 @@ int RunExperiment(const Experiment& experiment, const CommandLine& line) {
   ReadJobs(line, 1);
   const Plan plan =
       MakePlan(experiment, ReadRequest(line, experiment, ReadOut(line), ProgramId(kProgram)));
-  SayMissing(plan, quiet);
+  if (!line.Has("--dry-run")) CheckResultsFolder(plan.out);
+  SayNotes(plan, quiet);
   if (line.Has("--dry-run")) return ListJobs({&plan}, line.Has("--force"));
-  CheckResultsFolder(plan.out);
   const auto results = RunWithProgress({&plan}, line, 1, {});
   if (!results) return FirstStopSignal()->exit_code;
   WriteResults(plan, results->front());
@@ -331,9 +349,12 @@ int RunGroup(const ExperimentGroup& group, const CommandLine& line) {
   PlannedGroup planned = PlanGroup(group, line);
   std::vector<const Plan*> plans;
   for (const Plan& plan : planned.plans) plans.push_back(&plan);
+  if (!line.Has("--dry-run")) {
+    CheckResultsFolder(ReadOut(line));
+    for (const Plan* plan : plans) CheckResultsFolder(plan->out);
+  }
+  SayNotes(planned, data, quiet);
   if (line.Has("--dry-run")) return ListJobs(plans, line.Has("--force"));
-  CheckResultsFolder(ReadOut(line));
-  for (const Plan* plan : plans) CheckResultsFolder(plan->out);
   std::size_t runs = 0, failed = 0;
   const auto results = RunWithProgress(
       plans, line, cores, [&](std::size_t p, const std::vector<JobResult>& of_plan) {

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
+#include <set>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -127,14 +128,54 @@ double FramesOf(const Job& job, double frames) {
   return std::max(0.0, end - begin) / NumberOf(job, "--stride").value_or(1);
 }
 
-[[noreturn]] void FailNothing(const Plan& plan, const PlanRequest& request) {
-  if (plan.sequences.empty()) {
-    throw InputError(fmt::format(
-        "{}: no sequence found for {}{}",
-        plan.experiment.name,
-        fmt::join(plan.missing, ", "),
-        request.sources.data ? " in " + request.sources.data->string() : " without --data"));
+// "pair: no sequence found for euroc/*, kitti/* in DATA"
+std::string NoSequenceFound(const Plan& plan, const PlanRequest& request) {
+  return fmt::format(
+      "{}: no sequence found for {}{}",
+      plan.experiment.name,
+      fmt::join(plan.missing, ", "),
+      request.sources.data ? " in " + request.sources.data->string() : " without --data");
+}
+
+// Returns true if runs of the variant have a value of their own for an option: by a setting, or by
+// an argument that wins over settings. Each run has its --seed.
+bool Replaces(const Variant& variant, const std::string& key) {
+  const auto& arguments = variant.arguments;
+  const bool has_mode = std::find(arguments.begin(), arguments.end(), "--mode") != arguments.end();
+  return key == "slam.seed" || (key == "slam.mode" && has_mode) ||
+         std::any_of(variant.settings.begin(), variant.settings.end(), [&](const std::string& own) {
+           return own.starts_with(key + "=");
+         });
+}
+
+// Appends notes about settings of the request that chosen variants replace. Throws InputError if
+// all replace one.
+void NoteReplaced(const PlanRequest& request, Plan& plan) {
+  std::set<std::size_t> chosen;
+  for (const Job& job : plan.jobs) chosen.insert(job.variant);
+  for (const std::string& setting : request.settings) {
+    const std::string key = setting.substr(0, setting.find('='));
+    std::vector<std::string> names;
+    for (const std::size_t v : chosen) {
+      const Variant& variant = plan.experiment.variants[v];
+      if (Replaces(variant, key)) names.push_back(variant.name);
+    }
+    if (names.empty()) continue;
+    const bool one = names.size() == 1;
+    const std::string note = fmt::format("{}: --set {} has no effect on {}, which {} {} {}",
+                                         plan.experiment.name,
+                                         setting,
+                                         fmt::join(names, ", "),
+                                         one ? "sets" : "set",
+                                         key,
+                                         one ? "itself" : "themselves");
+    if (names.size() == chosen.size()) throw InputError(note + "; no other variant is run");
+    plan.setting_notes.push_back(note);
   }
+}
+
+[[noreturn]] void FailNothing(const Plan& plan, const PlanRequest& request) {
+  if (plan.sequences.empty()) throw InputError(NoSequenceFound(plan, request));
   std::vector<std::string> names;
   for (const ExperimentSequence& sequence : plan.sequences) names.push_back(sequence.name);
   std::vector<std::string> variants;
@@ -158,6 +199,13 @@ Plan MakePlan(const Experiment& experiment, const PlanRequest& request) {
   Plan plan;
   plan.experiment = experiment;
   plan.missing = std::move(found.missing);
+  plan.found_recorded = std::any_of(found.sequences.begin(),
+                                    found.sequences.end(),
+                                    [](const auto& sequence) { return !sequence.rendered; });
+  if (!plan.missing.empty()) {
+    plan.missing_note = NoSequenceFound(plan, request) +
+                        (plan.found_recorded ? "; left out" : "; there are rendered ones alone");
+  }
   plan.out = request.out;
   plan.cache = request.sources.cache;
   const int usual = request.full ? experiment.full_runs.value_or(experiment.runs) : experiment.runs;
@@ -181,6 +229,7 @@ Plan MakePlan(const Experiment& experiment, const PlanRequest& request) {
     plan.sequences = std::move(found.sequences);
     FailNothing(plan, request);
   }
+  NoteReplaced(request, plan);
   return plan;
 }
 

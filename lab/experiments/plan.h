@@ -35,6 +35,9 @@ struct Plan {
   std::vector<ExperimentSequence> sequences;  // those with a job
   std::vector<std::string> missing;           // sequences not found (FoundSequences)
   std::vector<Job> jobs;                      // by sequence, then variant, then run
+  bool found_recorded = false;                // true if a recorded sequence is there, chosen or not
+  std::string missing_note;                   // one line about `missing`; empty without any
+  std::vector<std::string> setting_notes;  // a line for each of the request that variants replace
   std::filesystem::path out, cache;
 
   const ExperimentSequence& SequenceOf(const Job& job) const { return sequences[job.sequence]; }
@@ -50,15 +53,16 @@ struct PlanRequest {
   // Sequences and variants to keep, any of these: part of SEQUENCE/VARIANT, or a pattern with * and
   // ? for all of it. Empty: all.
   std::vector<std::string> only = {};
-  // KEY=VALUE for all runs; a variant's own settings take precedence.
+  // KEY=VALUE for all runs; a variant's own settings take precedence (Plan::setting_notes).
   std::vector<std::string> settings = {};
   std::string program;                                // ProgramId
   std::optional<std::string> earlier = std::nullopt;  // ProgramId, for variants that are by_earlier
   bool full = false;  // the runs of the papers' protocol, without Experiment::test_arguments
 };
 
-// Lists the jobs of an experiment. Throws InputError if a setting is wrong, nothing is found,
-// `only` leaves nothing, or only one of `earlier` and a variant that is by_earlier is given.
+// Lists the jobs of an experiment. Throws InputError if a setting is wrong or all chosen variants
+// replace it, nothing is found, `only` leaves nothing, or only one of `earlier` and a variant that
+// is by_earlier is given.
 Plan MakePlan(const Experiment& experiment, const PlanRequest& request);
 
 // Returns the plan of an experiment that computes by itself: one job, in the folder of the

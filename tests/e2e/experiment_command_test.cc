@@ -47,8 +47,29 @@ TEST(ExperimentCommand, ListsWhatThereIsAndWhatItWouldDo) {
   EXPECT_EQ(std::count(dry.out.begin(), dry.out.end(), '\n'), 6 + 1);
   EXPECT_THAT(dry.out, HasSubstr("6 runs, 0 done; the others take about "));
   EXPECT_THAT(dry.out, HasSubstr("run   euroc/poster/lines/2: plumbline run "));
-  EXPECT_THAT(dry.err, HasSubstr("no sequence kitti/* found; left out\n"));
+  EXPECT_THAT(dry.err, HasSubstr("sensors: no sequence found for "));
+  EXPECT_THAT(dry.err, HasSubstr("kitti/*"));
+  EXPECT_EQ(std::count(dry.err.begin(), dry.err.end(), '\n'), 1) << dry.err;
   EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(ExperimentCommand, SaysInOneLineThatAFolderHasNoRecordings) {
+  const ScratchFolder folder;
+  fs::create_directories(folder / "data");
+  const Outcome worlds = RunExperiment(folder, "--dry-run");
+  EXPECT_EQ(worlds.code, 0) << worlds.err;
+  EXPECT_THAT(worlds.err, HasSubstr("data; there are rendered ones alone\n"));
+  EXPECT_EQ(std::count(worlds.err.begin(), worlds.err.end(), '\n'), 1) << worlds.err;
+  const std::string arguments =
+      " --dry-run --data " + Quoted(folder / "data") + " --out " + Quoted(folder / "out");
+  const Outcome group = RunProgram(folder, "experiment controls" + arguments);
+  EXPECT_EQ(group.code, 0) << group.err;
+  EXPECT_THAT(group.err, HasSubstr("no recorded sequence found"));
+  EXPECT_EQ(std::count(group.err.begin(), group.err.end(), '\n'), 1) << group.err;
+  const Outcome recordings = RunProgram(folder, "experiment robustness" + arguments);
+  EXPECT_EQ(recordings.code, 2);
+  EXPECT_THAT(recordings.err, HasSubstr("robustness: no sequence found for "));
+  EXPECT_EQ(std::count(recordings.err.begin(), recordings.err.end(), '\n'), 1) << recordings.err;
 }
 
 TEST(ExperimentCommand, MakesTheSameTablesTwice) {
@@ -177,6 +198,7 @@ TEST(ExperimentCommand, RefusesBadInputInOneLineBeforeAnyRun) {
       {"sensors --data /does/not/exist" + out, "/does/not/exist: expected the folder"},
       {"sensors --only euroc" + data + " --out " + file, "cannot make the folder"},
       {"sensors" + data + out + " --set features.pionts=true", "unknown option 'features.pionts'"},
+      {"sensors" + data + out + " --set slam.seed=3", "slam.seed=3 has no effect on points, lines"},
       {"sensors" + data + out + " --only nowhere", "--only nowhere: expected part of one of"},
       {"sensors" + data + out + " --runs 0", "--runs: expected a whole number from 1 to 1000"},
       {"sensors" + data + out + " --executor cloud", "--executor: expected local or slurm"},

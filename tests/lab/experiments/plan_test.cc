@@ -206,6 +206,51 @@ TEST(Plan, RefusesWhatCannotBeRunBeforeAnyRun) {
   EXPECT_THAT(MessageOf([&] { MakePlan(TwoVariants(), request); }), HasSubstr("without --data"));
 }
 
+TEST(Plan, NotesWhatIsMissingInOneLine) {
+  const ScratchFolder folder;
+  WriteSequenceFolder(folder, "data/euroc/a");
+  Experiment experiment = TwoVariants();
+  EXPECT_EQ(MakePlan(experiment, RequestIn(folder)).missing_note, "");
+  experiment.sequences = {{"euroc/*"}, {"kitti/*"}, {"tum/*"}};
+  const std::string data = (folder / "data").string();
+  const Plan some = MakePlan(experiment, RequestIn(folder));
+  EXPECT_EQ(some.missing_note,
+            "pair: no sequence found for kitti/*, tum/* in " + data + "; left out");
+  EXPECT_TRUE(some.found_recorded);
+  experiment.sequences = {{"kitti/*"}, {"worlds/room"}};
+  const Plan none = MakePlan(experiment, RequestIn(folder));
+  EXPECT_EQ(none.missing_note,
+            "pair: no sequence found for kitti/* in " + data + "; there are rendered ones alone");
+  EXPECT_FALSE(none.found_recorded);
+}
+
+TEST(Plan, TellsOfSettingsThatVariantsReplace) {
+  const ScratchFolder folder;
+  WriteSequenceFolder(folder, "data/euroc/a");
+  PlanRequest request = RequestIn(folder);
+  request.settings = {"features.points=true", "features.lines=true"};
+  EXPECT_THAT(MakePlan(TwoVariants(), request).setting_notes,
+              ElementsAre("pair: --set features.lines=true has no effect on one, which sets "
+                          "features.lines itself"));
+  request.only = {"a/two"};
+  EXPECT_TRUE(MakePlan(TwoVariants(), request).setting_notes.empty());
+  request.only = {"a/one"};
+  EXPECT_EQ(MessageOf([&] { MakePlan(TwoVariants(), request); }),
+            "pair: --set features.lines=true has no effect on one, which sets features.lines "
+            "itself; no other variant is run");
+  request = RequestIn(folder);
+  request.settings = {"slam.seed=7"};  // each run has a seed of its own
+  EXPECT_EQ(MessageOf([&] { MakePlan(TwoVariants(), request); }),
+            "pair: --set slam.seed=7 has no effect on one, two, which set slam.seed themselves; no "
+            "other variant is run");
+  Experiment live = TwoVariants();
+  live.variants[1].arguments = {"--mode", "live"};
+  request.settings = {"slam.mode=inline"};
+  EXPECT_THAT(MakePlan(live, request).setting_notes,
+              ElementsAre("pair: --set slam.mode=inline has no effect on two, which sets slam.mode "
+                          "itself"));
+}
+
 TEST(Plan, AJobIsDoneWhileItsFolderHoldsTheResultOfTheSameKey) {
   const ScratchFolder folder;
   Job job = PlanOfTwo(folder).jobs[0];
