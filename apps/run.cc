@@ -426,6 +426,7 @@ int RunCommand(std::span<const std::string> arguments) {
                              setup.options.slam.seed,
                              ToBeShown(arguments)};
   description.frames_chosen = input.frames.size();
+  description.preset = line.Value("--preset");
   description.notes = processed.notes;
   const WrittenResults written = WriteResults(
       {system, dataset, views, std::move(description), processed.first_pose_seconds, start},

@@ -78,6 +78,7 @@ CommandSyntax StartsSyntax() {
 
 struct Setup {
   StartOptions options;
+  std::optional<std::string> preset;
   std::string options_yaml;
   std::optional<std::string> camera;
   int seed = 0;
@@ -98,7 +99,8 @@ StartOptions OptionsOfPreset(const std::string& name) {
 
 Setup ReadStartSetup(const CommandLine& line) {
   Setup setup;
-  if (const auto preset = line.Value("--preset")) setup.options = OptionsOfPreset(*preset);
+  setup.preset = line.Value("--preset");
+  if (setup.preset) setup.options = OptionsOfPreset(*setup.preset);
   OptionTable table(setup.options);
   for (const std::string& file : line.Values("--config")) table.LoadFile(file);
   for (const std::string& assignment : line.Values("--set")) table.Set(assignment);
@@ -185,6 +187,8 @@ std::string FormatSummary(const Setup& setup,
                    {"max_ms", Percentile(results.add_ms, 1)}};
   }
   json["wall_seconds"] = wall_seconds;
+  json["preset"] =
+      setup.preset ? nlohmann::ordered_json(*setup.preset) : nlohmann::ordered_json(nullptr);
   json["options"] = setup.options_yaml;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -31,9 +31,12 @@ void CheckImage(const char* name, const Image<T>& image, const Calibration& cali
 
 }  // namespace
 
-RunningSystem::RunningSystem(const Calibration& calibration, const SlamOptions& options)
+RunningSystem::RunningSystem(const Calibration& calibration,
+                             const SlamOptions& options,
+                             std::optional<std::string> preset)
     : calibration_(calibration),
       options_(options),
+      preset_(std::move(preset)),
       system_(calibration, options),
       pipeline_(system_, [this](const FrameRecord& record, const FrameView& view) {
         Observe(record, view);

@@ -22,10 +22,14 @@ namespace plumbline::python {
 // end; InputError otherwise. Independent of Python: all functions may be called without the GIL.
 class RunningSystem {
  public:
-  RunningSystem(const Calibration& calibration, const SlamOptions& options);
+  //   preset  name of the preset that the options begin with; nullopt: the defaults
+  RunningSystem(const Calibration& calibration,
+                const SlamOptions& options,
+                std::optional<std::string> preset);
 
   const Calibration& calibration() const { return calibration_; }
   const SlamOptions& options() const { return options_; }
+  const std::optional<std::string>& preset() const { return preset_; }
 
   // Feeds the images of a frame. Its record is returned by TakeRecords.
   void Feed(SensorFrame frame);
@@ -72,6 +76,7 @@ class RunningSystem {
 
   Calibration calibration_;
   SlamOptions options_;
+  std::optional<std::string> preset_;
   System system_;
   std::mutex entered_;
   bool finished_ = false;

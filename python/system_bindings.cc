@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,8 +36,10 @@ std::unique_ptr<RunningSystem> MakeSystem(const Calibration& calibration,
                                           const py::object& preset,
                                           const py::kwargs& given) {
   const SlamOptions options = ReadRunOptions({preset, seed, mode}, given);
+  std::optional<std::string> name;
+  if (!preset.is_none()) name = preset.cast<std::string>();
   const py::gil_scoped_release release;
-  return std::make_unique<RunningSystem>(calibration, options);
+  return std::make_unique<RunningSystem>(calibration, options, std::move(name));
 }
 
 std::int64_t ReadStamp(py::handle value) {
@@ -227,6 +230,7 @@ std::filesystem::path WriteRun(RunningSystem& system,
                              options.slam.seed,
                              arguments};
   description.frames_chosen = frames_chosen;
+  description.preset = system.preset();
   const WrittenResults written = system.WithFinished("save", [&](const System& finished) {
     return WriteResults({finished,
                          *dataset,

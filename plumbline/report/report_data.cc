@@ -102,6 +102,7 @@ Json Run(const Dataset& dataset, const ReportContext& context) {
           {"wall_seconds", Rounded(context.resources.wall_seconds, 3)},
           {"cpu_seconds", Rounded(context.resources.cpu_seconds, 3)},
           {"peak_memory_mb", Rounded(context.resources.peak_memory_mb, 1)},
+          {"preset", description.preset ? Json(*description.preset) : Json(nullptr)},
           {"options", Options(description.options_yaml)}};
 }
 

@@ -177,6 +177,9 @@ function optionTable(options, withHelp) {
 function buildOptions() {
   const body = sectionBody("options");
   if (data.run.command) body.append(make("p", {}, make("code", {}, data.run.command)));
+  if (data.run.preset) {
+    body.append(note(`The options begin with those of the preset ${data.run.preset}.`));
+  }
   if (changedOptions.length === 0) {
     body.append(note("All options have their defaults."));
   } else {

@@ -287,6 +287,7 @@ std::string FormatSummary(const RunDescription& description,
   json["peak_memory_mb"] = resources.peak_memory_mb;
   const LineMemory memory = MeasureLineMemory(system);
   json["line_bytes"] = {{"map", OrNull(memory.map)}, {"adjustment", OrNull(memory.adjustment)}};
+  json["preset"] = description.preset ? Json(*description.preset) : Json(nullptr);
   json["options"] = description.options_yaml;
   // A path need not be UTF-8; bytes that are not become a replacement character.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

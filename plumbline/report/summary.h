@@ -73,6 +73,8 @@ struct RunDescription {
   std::size_t frames_chosen = 0;            // frames to be processed
   // Name of the signal that ended the run early, "SIGINT"; nullopt if none did.
   std::optional<std::string> interrupted = std::nullopt;
+  // Name of the preset that the options begin with (slam/preset.h); nullopt: the defaults.
+  std::optional<std::string> preset = std::nullopt;
   // One sentence for each fault of the data found in the images.
   std::vector<std::string> notes = {};
 };

@@ -74,6 +74,7 @@ TEST(Preset, RipplReachesWhatItReached) {
     if (summary.is_null()) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
     SCOPED_TRACE(gate.sequence);
     EXPECT_EQ(summary["sensor"], "mono");
+    EXPECT_EQ(summary["preset"], "rippl");
     EXPECT_EQ(summary["frames"]["tracked"], gate.tracked);
     EXPECT_EQ(summary["maps"], 1);
     EXPECT_LE(summary["accuracy"]["ate"]["rmse"], gate.max_error);

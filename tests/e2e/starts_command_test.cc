@@ -56,6 +56,7 @@ TEST(StartsCommand, TakesThePresetOfAPaper) {
       RunStarts(folder, "--start 0 --preset rippl --set features.point_count=2000");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto summary = nlohmann::json::parse(Contents(folder / "out/summary.json"));
+  EXPECT_EQ(summary["preset"], "rippl");
   const std::string options = summary["options"];
   const Outcome run = RunProgram(folder, "config --preset rippl --set features.point_count=2000");
   for (const char* key : {"point_count:",

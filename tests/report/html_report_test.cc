@@ -234,6 +234,17 @@ TEST(HtmlReport, TellsTheOptionsThatDifferFromTheDefaults) {
   EXPECT_THAT(different, testing::ElementsAre("slam.lag"));
 }
 
+TEST(HtmlReport, NamesThePresetAboveTheOptions) {
+  const PosterRun run;
+  ReportContext context = ContextOf(run);
+  EXPECT_TRUE(
+      DataOf(FormatHtmlReport(run.system(), PosterDataset(6), context))["run"]["preset"].is_null());
+  context.description.preset = "rippl";
+  const std::string page = FormatHtmlReport(run.system(), PosterDataset(6), context);
+  EXPECT_EQ(DataOf(page)["run"]["preset"], "rippl");
+  EXPECT_THAT(page, HasSubstr("The options begin with those of the preset"));
+}
+
 TEST(HtmlReport, ShowsSampleImagesWithTheirFeatures) {
   const PosterRun run;
   const auto json = DataOf(FormatHtmlReport(run.system(), PosterDataset(6), ContextOf(run)));

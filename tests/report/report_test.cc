@@ -207,6 +207,16 @@ TEST(Summary, TellsWhetherAllFramesWereTaken) {
   EXPECT_EQ(json["frames"]["in"], 6);
 }
 
+TEST(Summary, NamesThePreset) {
+  const PosterRun run;
+  RunDescription description;
+  auto json = nlohmann::json::parse(FormatSummary(description, run.system(), PosterDataset(6), {}));
+  EXPECT_TRUE(json.at("preset").is_null());
+  description.preset = "rippl";
+  json = nlohmann::json::parse(FormatSummary(description, run.system(), PosterDataset(6), {}));
+  EXPECT_EQ(json["preset"], "rippl");
+}
+
 TEST(Summary, TellsTheMemoryOfALine) {
   const PosterRun run;
   const auto line_bytes = [](const PosterRun& of) {
