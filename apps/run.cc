@@ -12,6 +12,7 @@
 #include "plumbline/live/open_live_source.h"
 #include "plumbline/recording/mcap_file_writer.h"
 #include "plumbline/report/run_folder.h"
+#include "plumbline/slam/options_without_effect.h"
 #include "plumbline/slam/preset.h"
 #include "plumbline/slam/system.h"
 #include "plumbline/version.h"
@@ -120,6 +121,7 @@ std::vector<std::size_t> ChooseFrames(const CommandLine& line, const Dataset& da
 struct RunSetup {
   SlamOptions options;
   std::string options_yaml;
+  std::vector<std::string> set;  // keys of the options that the user has set
   std::filesystem::path folder;
   int blur = 0;
   bool quiet = false;
@@ -141,8 +143,13 @@ RunSetup ReadSetup(const CommandLine& line) {
   if (IsLiveByDefault(line.Positional(0))) setup.options.slam.mode = RunMode::kLive;
   OptionTable table(setup.options);
   if (const auto preset = line.Value("--preset")) LoadPreset(*preset, table);
+  const SlamOptions unset = setup.options;
   for (const std::string& file : line.Values("--config")) table.LoadFile(file);
-  for (const std::string& assignment : line.Values("--set")) table.Set(assignment);
+  setup.set = DifferentOptions(unset, setup.options);  // a file may list all options
+  for (const std::string& assignment : line.Values("--set")) {
+    table.Set(assignment);
+    setup.set.push_back(assignment.substr(0, assignment.find('=')));
+  }
   if (const auto mode = line.Value("--mode")) table.Set("slam.mode=" + *mode);
   if (const auto seed = line.Value("--seed")) table.Set("slam.seed=" + *seed);
   ChooseLineMethod(setup.options);
@@ -245,6 +252,15 @@ void SayUnused(const CommandLine& line, const Dataset& dataset) {
     Say(fmt::format("--preset {} is for one camera: {} is not used",
                     *preset,
                     sensor == SensorKind::kStereo ? "the right image" : "depth"));
+  }
+}
+
+// Reports options that the user has set and others leave without effect.
+void SayWithoutEffect(const RunSetup& setup, const Dataset& dataset) {
+  const bool has_map = setup.map.has_value();
+  for (const std::string& note :
+       OptionsWithoutEffect(setup.options, setup.set, NameOf(dataset.sensor()), has_map)) {
+    Say(note);
   }
 }
 
@@ -410,6 +426,7 @@ int RunCommand(std::span<const std::string> arguments) {
   WriteOptions(setup, folder);
   IgnoreBrokenPipes();
   if (!setup.quiet) SayUnused(line, *input.dataset);
+  if (!setup.quiet) SayWithoutEffect(setup, *input.dataset);
   SayBefore(*input.dataset, folder, map_notes, setup.quiet);
   CatchStopSignals();
   KeptViews views(input);

@@ -15,6 +15,7 @@
 #include "plumbline/report/error_options.h"
 #include "plumbline/report/run_folder.h"
 #include "plumbline/slam/options.h"
+#include "plumbline/slam/options_without_effect.h"
 #include "plumbline/slam/preset.h"
 #include "plumbline/version.h"
 
@@ -80,6 +81,7 @@ struct Setup {
   StartOptions options;
   std::optional<std::string> preset;
   std::string options_yaml;
+  std::vector<std::string> without_effect;  // lines of OptionsWithoutEffect
   std::optional<std::string> camera;
   int seed = 0;
   std::filesystem::path folder;
@@ -97,13 +99,27 @@ StartOptions OptionsOfPreset(const std::string& name) {
   return {options.features, options.initialization};
 }
 
+SlamOptions RunOptionsOf(const StartOptions& start) {
+  SlamOptions options;
+  options.features = start.features;
+  options.initialization = start.initialization;
+  return options;
+}
+
 Setup ReadStartSetup(const CommandLine& line) {
   Setup setup;
   setup.preset = line.Value("--preset");
   if (setup.preset) setup.options = OptionsOfPreset(*setup.preset);
+  const SlamOptions unset = RunOptionsOf(setup.options);
   OptionTable table(setup.options);
   for (const std::string& file : line.Values("--config")) table.LoadFile(file);
-  for (const std::string& assignment : line.Values("--set")) table.Set(assignment);
+  std::vector<std::string> set = DifferentOptions(unset, RunOptionsOf(setup.options));
+  for (const std::string& assignment : line.Values("--set")) {
+    table.Set(assignment);
+    set.push_back(assignment.substr(0, assignment.find('=')));
+  }
+  setup.without_effect =
+      OptionsWithoutEffect(RunOptionsOf(setup.options), set, NameOf(SensorKind::kMono));
   setup.options_yaml = table.Dump();
   setup.camera = line.Value("--camera");
   setup.seed = line.Count("--seed", 0, {0, std::numeric_limits<int>::max()});
@@ -277,6 +293,9 @@ int StartsCommand(std::span<const std::string> arguments) {
   CheckApart(setup.folder, CommandInputs(line, *dataset));
   RefuseFilesOfOthers(setup.folder);
   PrepareFolder(setup, line.Has("--draw"));
+  for (const std::string& note : setup.without_effect) {
+    if (!setup.quiet) std::cerr << "plumbline: " << note << '\n';
+  }
   if (line.Has("--draw")) DrawMaps(*dataset, setup, plan);
   CatchStopSignals();
   const StartResults results = Run(*dataset, setup, plan);

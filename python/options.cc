@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/slam/options.h"
+#include "plumbline/slam/options_without_effect.h"
 #include "plumbline/slam/preset.h"
 #include "plumbline/slam/user_options.h"
 #include "worlds/world.h"
@@ -116,6 +117,7 @@ SlamOptions ReadRunOptions(const RunArguments& arguments, const py::dict& given)
     }
     LoadPreset(arguments.preset.cast<std::string>(), table);
   }
+  const SlamOptions unset = options;
   py::dict all = given.attr("copy")();
   for (const auto& [name, value] : {std::pair{"seed", arguments.seed}, {"mode", arguments.mode}}) {
     if (value.is_none()) continue;
@@ -126,6 +128,9 @@ SlamOptions ReadRunOptions(const RunArguments& arguments, const py::dict& given)
   }
   SetInTable(all, table);
   CheckOptions(options);
+  for (const std::string& note : OptionsWithoutEffect(options, DifferentOptions(unset, options))) {
+    if (PyErr_WarnEx(PyExc_UserWarning, note.c_str(), 1) != 0) throw py::error_already_set();
+  }
   return options;
 }
 
@@ -146,7 +151,8 @@ void BindOptions(py::module_& module) {
 All options of a run in groups, as `System` and `run` take them:
 options()["features"]["line_count"]. preset="rippl" or "good-line-cutting" takes the options of a paper first; seed
 and mode are slam.seed and slam.mode. Options that are given are checked and take the place of the
-defaults. Raises InputError with the program's message.)");
+defaults. Raises InputError with the program's message. A UserWarning names options without effect,
+and the option that leaves them so.)");
   module.def(
       "_preset_sensor",
       [](const std::string& name) { return FindPreset(name).needs_stereo ? "stereo" : "mono"; },

@@ -1,11 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The Plumbline authors
 # SPDX-License-Identifier: Apache-2.0
 """Runs: what the program does, frame by frame or in one call."""
+import json
 import signal
 import subprocess
 import sys
 import textwrap
 import types
+import warnings
 
 import numpy as np
 import pytest
@@ -33,6 +35,21 @@ def test_a_run_writes_the_bytes_of_the_program(program, sequence, tmp_path):
     subprocess.run([program, "map", "info", tmp_path / "python" / "map.plb"], check=True,
                    stdout=subprocess.DEVNULL)
     plumbline.run(sequence, out=tmp_path / "python", stop=4)
+
+
+def test_a_preset_is_named_in_the_summary(sequence, tmp_path):
+    for preset in ("good-line-cutting", None):
+        plumbline.run(sequence, preset=preset, stop=3, out=tmp_path / "out")
+        assert json.loads((tmp_path / "out" / "summary.json").read_text())["preset"] == preset
+
+
+def test_options_without_effect_are_told():
+    with pytest.warns(UserWarning, match="cutting.method: no effect with features.lines=false"):
+        plumbline.options(features={"lines": False}, cutting={"method": "greedy"})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        plumbline.options(features={"lines": False}, preset="good-line-cutting")
+        plumbline.options(**plumbline.options(features={"lines": False}))
 
 
 def test_frames_from_anywhere_give_the_same_poses(dataset, finished):
