@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
+#include "plumbline/slam/user_options.h"
 
 namespace plumbline {
 
@@ -16,6 +17,12 @@ std::string ValueOf(const RemovedOption& removed, const std::vector<RemovedSetti
   }
   return removed.value;
 }
+
+std::string Difference(const std::string& what, const std::string& a, const std::string& b) {
+  return what + ": " + a + " in the map, " + b + " now";
+}
+
+bool IsOfFrontEnd(std::string_view key) { return key.starts_with("features."); }
 
 }  // namespace
 
@@ -49,7 +56,7 @@ std::vector<std::string> FrontEndDifferences(const AtlasContext& of_map, const A
   std::vector<std::string> differences;
   if (of_map.feature_format == 0 || now.feature_format == 0) return differences;
   const auto compare = [&](const std::string& what, const std::string& a, const std::string& b) {
-    if (a != b) differences.push_back(what + ": " + a + " in the map, " + b + " now");
+    if (a != b) differences.push_back(Difference(what, a, b));
   };
   compare("format of features",
           std::to_string(of_map.feature_format),
@@ -64,14 +71,34 @@ std::vector<std::string> FrontEndDifferences(const AtlasContext& of_map, const A
     const OptionTable a(before), b(after);
     for (const std::string& key : b.Keys()) {
       const bool changes_results = key != "features.parallel";
-      if (key.starts_with("features.") && changes_results) compare(key, a.Value(key), b.Value(key));
+      if (IsOfFrontEnd(key) && changes_results) compare(key, a.Value(key), b.Value(key));
     }
     for (const RemovedOption& removed : b.removed()) {
-      if (!removed.name.starts_with("features.")) continue;
+      if (!IsOfFrontEnd(removed.name)) continue;
       compare(removed.name, ValueOf(removed, removed_before), ValueOf(removed, removed_after));
     }
   } catch (const InputError& error) {
     differences.emplace_back(error.what());
+  }
+  return differences;
+}
+
+std::vector<std::string> SystemDifferences(const AtlasContext& of_map, const AtlasContext& now) {
+  std::vector<std::string> differences;
+  if (of_map.options_yaml.empty()) return differences;
+  const auto pass_over = [](const RemovedSetting&) {};
+  try {
+    SlamOptions before = SavedOptions(of_map, "its options", pass_over);
+    SlamOptions after = SavedOptions(now, "options", pass_over);
+    const OptionTable a(before), b(after);
+    for (const std::string& key : b.Keys()) {
+      if (IsOfFrontEnd(key) || TierOf(key) != OptionTier::kPaper) continue;
+      if (a.Value(key) != b.Value(key)) {
+        differences.push_back(Difference(key, a.Value(key), b.Value(key)));
+      }
+    }
+  } catch (const InputError&) {
+    differences.clear();  // FrontEndDifferences tells what is not known
   }
   return differences;
 }

@@ -35,4 +35,9 @@ SlamOptions SavedOptionsOrDefault(const AtlasContext& context,
 // known. Options of the map that this version does not know are one line, too.
 std::vector<std::string> FrontEndDifferences(const AtlasContext& of_map, const AtlasContext& now);
 
+// Returns the differences of the systems in the same form: of the other options that presets set
+// (OptionTier::kPaper), which decide about the kind of line, the start of a map and what frames are
+// tracked against. Empty as above, and if options are not known.
+std::vector<std::string> SystemDifferences(const AtlasContext& of_map, const AtlasContext& now);
+
 }  // namespace plumbline

@@ -18,6 +18,7 @@
 #include <variant>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace plumbline {
 namespace {
@@ -285,6 +286,10 @@ std::vector<std::string> System::Continue(SavedAtlas saved, bool read_only) {
   mapping_.Continue(std::move(saved.atlas), mapper);
   std::vector<std::string> notes = FrontEndDifferences(*loaded_, now);
   for (std::string& note : notes) note = "the map was made with another front end: " + note;
+  const std::vector<std::string> system = SystemDifferences(*loaded_, now);
+  if (!system.empty()) {
+    notes.push_back(fmt::format("the map was made by another system: {}", fmt::join(system, "; ")));
+  }
   return notes;
 }
 

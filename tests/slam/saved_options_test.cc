@@ -3,7 +3,9 @@
 #include "plumbline/slam/saved_options.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/options_io.h"
 #include "plumbline/features/extractor.h"
+#include "plumbline/slam/preset.h"
 
 #include <functional>
 #include <string>
@@ -104,6 +106,26 @@ TEST(FrontEndDifferences, LeaveOutWhatChangesNoFeature) {
 
 TEST(FrontEndDifferences, KnowNothingOfMapsThatDoNotSay) {
   EXPECT_TRUE(FrontEndDifferences({}, MeasuredWith("features: {line_count: 100}")).empty());
+}
+
+TEST(SystemDifferences, TellWhatAPresetChanges) {
+  SlamOptions options;
+  OptionTable table(options);
+  LoadPreset("good-line-cutting", table);
+  const AtlasContext usual = MeasuredWith(""), cutting = MeasuredWith(table.Dump());
+  const AtlasContext seeded = MeasuredWith("slam: {seed: 7}");
+  EXPECT_EQ(
+      SystemDifferences(seeded, cutting),
+      (std::vector<std::string>{"lines.residual: observed_ends in the map, projected_ends now",
+                                "lines.weighting: covariance in the map, none now",
+                                "cutting.method: none in the map, greedy now",
+                                "cutting.information: independent in the map, printed now",
+                                "cutting.ends: landmark in the map, inverse_depth now",
+                                "tracking.reference: local_map in the map, last_frame now"}));
+  EXPECT_EQ(SystemDifferences(cutting, seeded).size(), 6U);
+  EXPECT_TRUE(SystemDifferences(cutting, cutting).empty());
+  EXPECT_TRUE(SystemDifferences(seeded, MeasuredWith("loop: {enabled: false}")).empty());
+  EXPECT_TRUE(SystemDifferences(usual, cutting).empty()) << "a map that does not say";
 }
 
 TEST(FrontEndDifferences, TellOfOptionsThatAreNotKnown) {
