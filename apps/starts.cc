@@ -294,7 +294,7 @@ int StartsCommand(std::span<const std::string> arguments) {
   RefuseFilesOfOthers(setup.folder);
   PrepareFolder(setup, line.Has("--draw"));
   for (const std::string& note : setup.without_effect) {
-    if (!setup.quiet) std::cerr << "plumbline: " << note << '\n';
+    if (!setup.quiet) std::clog << "plumbline: " << note << '\n';
   }
   if (line.Has("--draw")) DrawMaps(*dataset, setup, plan);
   CatchStopSignals();

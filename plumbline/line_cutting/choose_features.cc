@@ -32,7 +32,8 @@ double GainOf(const Eigen::LLT<Matrix6d>& rest, const Rows& rows, const Weight& 
 }
 
 bool CutsLines(CuttingMethod method) {
-  return method != CuttingMethod::kNone && method != CuttingMethod::kDrop;
+  return method != CuttingMethod::kNone && method != CuttingMethod::kTrim &&
+         method != CuttingMethod::kDrop;
 }
 
 // A point, or a line with its best cut, as of the last time it was looked at.

@@ -118,6 +118,7 @@ std::vector<LineCut> CutLines(const CuttingProblem& problem, const CuttingOption
   Check(problem);
   switch (options.method) {
     case CuttingMethod::kNone:
+    case CuttingMethod::kTrim:  // what trims gives trimmed lines (WithCutLines)
       break;
     case CuttingMethod::kGreedy:
       return CutGreedily(problem, options.information, 1);

@@ -21,6 +21,7 @@ namespace plumbline {
 // Search for the cuts of all lines.
 enum class CuttingMethod {
   kNone,          // all lines keep their full length
+  kTrim,          // a control: trimmed to the measured segment, as lines are before a cut; not cut
   kGreedy,        // Algorithm 1: one line after the other, once
   kGreedySweeps,  // Algorithm 1 again until nothing changes
   kJoint,         // all ratios at once, gradient ascent from full length
@@ -43,6 +44,7 @@ enum class CuttingEnds {
 
 constexpr auto EnumNames(std::type_identity<CuttingMethod>) {
   return std::array{std::pair{CuttingMethod::kNone, "none"},
+                    std::pair{CuttingMethod::kTrim, "trim"},
                     std::pair{CuttingMethod::kGreedy, "greedy"},
                     std::pair{CuttingMethod::kGreedySweeps, "greedy_sweeps"},
                     std::pair{CuttingMethod::kJoint, "joint"},
@@ -73,8 +75,9 @@ template <class Visitor>
 void VisitFields(Visitor&& visit, CuttingOptions& o) {
   visit("method",
         o.method,
-        "of cutting lines before the pose is optimized: none, greedy (one line after the other, "
-        "once), greedy_sweeps (until nothing changes), joint (all at once), drop (leave out the "
+        "of cutting lines before the pose is optimized: none, trim (to the measured segment, as "
+        "before a cut, and no further), greedy (one line after the other, once), greedy_sweeps "
+        "(until nothing changes), joint (all at once), drop (leave out the "
         "most uncertain lines instead)");
   visit("information",
         o.information,

@@ -203,7 +203,7 @@ PoseProblem WithCutLines(const PoseProblem& problem,
     }
     const LineCut& cut = choice.lines[at->second];
     if (!cut.used) continue;
-    if (cut != LineCut{}) {
+    if (cut != LineCut{} || cutting.method == CuttingMethod::kTrim) {
       const Cuttable& whole = cuttable[at->second];
       UsePiece(problem.camera, whole, cut, lines, cutting, candidates[i].sigma_px, match);
     }

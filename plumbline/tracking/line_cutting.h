@@ -66,7 +66,8 @@ struct CutCandidate {
 // Weights of the pieces are those of the cut points by lines.weighting: none 1 px, scalar the mean
 // variance, covariance one each (2 x 2 for correlated information). Lines left whole keep their
 // measurement: those shorter than 5 px, without a visible part, or whose best piece is the whole
-// line. Lines that drop leaves out are not in the result.
+// line; with trim the latter are trimmed to the visible part. Lines that drop leaves out are not in
+// the result.
 //
 //   problem     initial pose, points, lines
 //   candidates  one for each entry of problem.lines

@@ -150,6 +150,26 @@ TEST(WithCutLines, DropLeavesLinesOutInBothImages) {
   }
 }
 
+TEST(WithCutLines, TrimsToTheMeasuredSegmentAndNoFurther) {
+  Scene scene;
+  const RectifiedCamera& camera = scene.problem.camera;
+  Segment2& seen = scene.problem.lines[0].measurement.segment;
+  seen.end = seen.Midpoint();
+  const PoseProblem trimmed = scene.Cut(CuttingMethod::kTrim);
+  ASSERT_EQ(trimmed.lines.size(), scene.problem.lines.size());
+  for (std::size_t i = 0; i < trimmed.lines.size(); ++i) {
+    const Segment3 &whole = scene.problem.lines[i].ends, &piece = trimmed.lines[i].ends;
+    EXPECT_LT((piece.start - whole.start).norm(), 1e-6) << i;
+    if (i < 2) {  // both images of the first line
+      const Eigen::Vector2d shown = camera.Project(piece.end);
+      EXPECT_LT((shown - seen.end).norm(), 1e-6) << i;
+    } else {
+      EXPECT_LT((piece.end - whole.end).norm(), 1e-6) << i;
+    }
+  }
+  EXPECT_GT((trimmed.lines[0].ends.end - scene.problem.lines[0].ends.end).norm(), 0.1);
+}
+
 TEST(WithCutLines, LeavesShortLinesWhole) {
   Scene scene;
   LineMeasurement& left = scene.problem.lines[0].measurement;

@@ -6,6 +6,7 @@
 #include "lab/experiments/computed.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/slam/options.h"
+#include "plumbline/slam/options_without_effect.h"
 #include "plumbline/slam/preset.h"
 
 #include <algorithm>
@@ -94,6 +95,55 @@ TEST(PaperCatalog, TheSystemsOfTable2DifferInAllThatMakesThem) {
   }
 }
 
+TEST(PaperCatalog, TheControlsOfTable2TakeOneStepEach) {
+  const Experiment& experiment = FindExperiment("rippl-table2-controls");
+  const auto differences = [&](const Variant& variant) {
+    const std::string& reference =
+        variant.reference.empty() ? experiment.reference : variant.reference;
+    return DifferentOptions(OptionsOf(experiment.name, variant.name),
+                            OptionsOf(experiment.name, reference));
+  };
+  const std::vector<Variant>& variants = experiment.variants;
+  ASSERT_EQ(variants.size(), 4U);
+  EXPECT_THAT(differences(variants[0]), testing::IsEmpty());
+  EXPECT_THAT(differences(variants[1]), testing::ElementsAre("initialization.method"));
+  EXPECT_THAT(differences(variants[2]), testing::ElementsAre("lines.reconstruction"));
+  EXPECT_THAT(differences(variants[3]), testing::ElementsAre("lines.parametrization"));
+  for (const char* name : {"RIPPL", "PPL"}) {
+    EXPECT_THAT(DifferentOptions(OptionsOf(experiment.name, name), OptionsOf("rippl-table2", name)),
+                testing::IsEmpty());
+  }
+}
+
+TEST(PaperCatalog, TrimmedLinesDifferFromWholeAndCutOnesInTheMethodAlone) {
+  for (const char* experiment : {"cutting-table1", "cutting-table2-3"}) {
+    for (const std::string lines : {"L", "PL"}) {
+      const SlamOptions trimmed = OptionsOf(experiment, lines + "_trimmed");
+      EXPECT_EQ(trimmed.cutting.method, CuttingMethod::kTrim);
+      for (const std::string& other : {lines, lines + "+Cut"}) {
+        EXPECT_THAT(DifferentOptions(trimmed, OptionsOf(experiment, other)),
+                    testing::ElementsAre("cutting.method"));
+      }
+    }
+  }
+}
+
+// But for controls of starts, which differ in one option from what they are compared with.
+TEST(PaperCatalog, NoSystemSetsAnOptionWithoutEffect) {
+  for (const Experiment& experiment : PaperExperiments()) {
+    if (experiment.command == RunCommandKind::kStarts) continue;
+    for (const Variant& variant : experiment.variants) {
+      std::vector<std::string> set;
+      for (const std::string& setting : variant.settings) {
+        set.push_back(setting.substr(0, setting.find('=')));
+      }
+      const SlamOptions options = OptionsOf(experiment.name, variant.name);
+      EXPECT_THAT(OptionsWithoutEffect(options, set), testing::IsEmpty())
+          << experiment.name << " " << variant.name;
+    }
+  }
+}
+
 TEST(PaperCatalog, TheDefaultSystemStandsBesideThoseOfThePapers) {
   SlamOptions usual;
   usual.loop.enabled = false;
@@ -143,7 +193,9 @@ TEST(PaperCatalog, CuttingIsAgainstTheLastFrameWithoutWeights) {
     const SlamOptions options = OptionsOf("cutting-table2-3", name);
     EXPECT_EQ(options.tracking.reference, TrackingReference::kLastFrame) << name;
     EXPECT_EQ(options.lines.weighting, LineWeighting::kNone) << name;
-    EXPECT_EQ(options.cutting.method == CuttingMethod::kGreedy, name.ends_with("Cut")) << name;
+    if (options.features.lines) {
+      EXPECT_EQ(options.cutting.method == CuttingMethod::kGreedy, name.ends_with("Cut")) << name;
+    }
     EXPECT_EQ(options.features.points, name.starts_with("P")) << name;
     EXPECT_EQ(options.features.lines, name != "P") << name;
   }
