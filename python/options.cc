@@ -64,7 +64,7 @@ struct ToPython {
   py::object operator()(const T* value) const {
     return py::cast(*value);
   }
-  py::object operator()(const EnumField& field) const { return py::cast(field.names[field.get()]); }
+  py::object operator()(const NamedField& field) const { return py::cast(field.get()); }
 };
 
 py::dict GroupOf(py::dict values, const std::string& key) {

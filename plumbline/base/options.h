@@ -28,6 +28,9 @@ namespace plumbline {
 //   constexpr auto EnumNames(std::type_identity<E>) {
 //     return std::array{std::pair{E::kFirst, "first"}, std::pair{E::kSecond, "second"}};
 //   }
+//
+// A method that programs may have more of than the library is a std::string, with the names of the
+// library's: visit("method", o.method, "search for the cuts", Methods{{"none", "greedy"}}).
 
 // Returns the name of an enumerator, as EnumNames lists it.
 template <class Enum>
@@ -42,6 +45,18 @@ std::string NameOf(Enum value) {
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
+};
+
+// Names of the methods of an option of type std::string.
+struct Methods {
+  std::vector<std::string> names;
+};
+
+// A method that a program has beside those of the library.
+struct AddedMethod {
+  std::string key;  // dotted, of the option that names it
+  std::string name;
+  std::string help;  // added to the help of the option
 };
 
 struct FieldProbe {

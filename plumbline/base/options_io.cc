@@ -61,7 +61,7 @@ std::string Allowed(const OptionField& field) {
     std::string operator()(const std::uint64_t*) const { return "a whole number, at least 0"; }
     std::string operator()(const double*) const { return "a number"; }
     std::string operator()(const std::string*) const { return "a text"; }
-    std::string operator()(const EnumField& e) const { return "one of " + Join(e.names); }
+    std::string operator()(const NamedField& e) const { return "one of " + Join(e.names); }
   };
   std::string text = std::visit(Name{}, field.target);
   if (Bounded(field)) text += ", " + RangeText(*field.range);
@@ -75,6 +75,10 @@ std::optional<T> ParseNumber(std::string_view text) {
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
   if (result.ec != std::errc() || result.ptr != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+bool HasName(const NamedField& field, const std::string& text) {
+  return std::find(field.names.begin(), field.names.end(), text) != field.names.end();
 }
 
 bool InRange(const OptionField& field, double value) {
@@ -104,18 +108,17 @@ struct Store {
     *target = text;
     return true;
   }
-  bool operator()(const EnumField& target) const {
-    const auto found = std::find(target.names.begin(), target.names.end(), text);
-    if (found == target.names.end()) return false;
-    target.set(static_cast<std::size_t>(found - target.names.begin()));
+  bool operator()(const NamedField& target) const {
+    if (!HasName(target, text)) return false;
+    target.set(text);
     return true;
   }
 };
 
-struct HasValueInRange {
+struct HasAllowedValue {
   const OptionField& field;
 
-  bool operator()(const EnumField& /*choice*/) const { return true; }
+  bool operator()(const NamedField& choice) const { return HasName(choice, choice.get()); }
   bool operator()(const std::string* /*text*/) const { return true; }
   template <class T>
   bool operator()(const T* value) const {
@@ -127,11 +130,7 @@ struct ToText {
   std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
   std::string operator()(const double* value) const { return Shortest(*value); }
   std::string operator()(const std::string* value) const { return Quoted(*value); }
-  std::string operator()(const EnumField& value) const {
-    const std::size_t index = value.get();
-    PLUMBLINE_CHECK(index < value.names.size(), "enum value without a name");
-    return value.names[index];
-  }
+  std::string operator()(const NamedField& value) const { return value.get(); }
   template <class T>
   std::string operator()(const T* value) const {
     return std::to_string(*value);
@@ -140,8 +139,8 @@ struct ToText {
 
 std::string Comment(const OptionField& field) {
   std::string limits;
-  if (std::holds_alternative<EnumField>(field.target)) {
-    limits = Join(std::get<EnumField>(field.target).names);
+  if (const auto* choice = std::get_if<NamedField>(&field.target)) {
+    limits = Join(choice->names);
   } else if (std::holds_alternative<bool*>(field.target)) {
     limits = "true | false";
   } else if (Bounded(field)) {
@@ -166,6 +165,17 @@ std::string RemovedMessage(const std::string& where,
                            const RemovedOption& removed,
                            const std::string& found) {
   return where + ": " + NoOptionAnyMore(removed) + ", found " + InQuotes(found);
+}
+
+std::string NotAllowed(const std::string& where,
+                       const OptionField& field,
+                       const std::string& found) {
+  return where + ": " + field.key + ": expected " + Allowed(field) + ", found " + InQuotes(found);
+}
+
+bool IsUnknownMethod(const OptionField& field, const std::string& text) {
+  const auto* methods = std::get_if<NamedField>(&field.target);
+  return methods != nullptr && methods->is_method && !text.empty() && !HasName(*methods, text);
 }
 
 bool IsValueOf(const RemovedOption& removed, const std::string& text) {
@@ -244,12 +254,25 @@ const RemovedOption* OptionTable::FindRemoved(std::string_view key) const {
   return found == removed_.end() ? nullptr : &*found;
 }
 
+OptionField* OptionTable::FindField(std::string_view key) {
+  const auto found = std::find_if(
+      fields_.begin(), fields_.end(), [key](const OptionField& field) { return field.key == key; });
+  return found == fields_.end() ? nullptr : &*found;
+}
+
+void OptionTable::Add(const AddedMethod& method) {
+  OptionField* field = FindField(method.key);
+  if (field == nullptr) return;
+  auto* methods = std::get_if<NamedField>(&field->target);
+  PLUMBLINE_CHECK(methods != nullptr && methods->is_method, "an option that names no method");
+  methods->names.push_back(method.name);
+  field->help += ", " + method.name + " (" + method.help + ")";
+}
+
 void OptionTable::Set(const std::string& key, const std::string& text, const std::string& where) {
-  for (const OptionField& field : fields_) {
-    if (field.key != key) continue;
-    if (std::visit(Store{field, text}, field.target)) return;
-    throw InputError(where + ": " + key + ": expected " + Allowed(field) + ", found " +
-                     InQuotes(text));
+  if (const OptionField* field = FindField(key)) {
+    if (std::visit(Store{*field, text}, field->target)) return;
+    throw InputError(NotAllowed(where, *field, text));
   }
   if (IsGroup(key)) {
     throw InputError(where + ": " + key + ": expected a group of options, found " + InQuotes(text));
@@ -298,6 +321,12 @@ void OptionTable::LoadText(const std::string& text,
         continue;
       }
     }
+    const OptionField* field = FindField(setting.key);
+    if (on_removed && field != nullptr && IsUnknownMethod(*field, setting.text.value_or(""))) {
+      on_removed(
+          {setting.key, *setting.text, ValueOf(*field), NotAllowed(where, *field, *setting.text)});
+      continue;
+    }
     // A group without options, e.g. all of them commented out, is allowed.
     if (setting.text || !IsGroup(setting.key)) {
       Set(setting.key, setting.text.value_or(""), where);
@@ -317,7 +346,7 @@ void OptionTable::Set(std::string_view assignment) {
 
 void OptionTable::CheckRanges() const {
   for (const OptionField& field : fields_) {
-    if (std::visit(HasValueInRange{field}, field.target)) continue;
+    if (std::visit(HasAllowedValue{field}, field.target)) continue;
     throw InputError(field.key + ": expected " + Allowed(field) + ", found " + ValueOf(field));
   }
 }

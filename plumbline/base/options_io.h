@@ -18,17 +18,18 @@
 
 namespace plumbline {
 
-// An option of enum type, as the index into its names.
-struct EnumField {
+// An option whose values have names.
+struct NamedField {
   std::vector<std::string> names;
-  std::function<std::size_t()> get;
-  std::function<void(std::size_t)> set;
+  std::function<std::string()> get;
+  std::function<void(const std::string&)> set;  // to one of the names
+  bool is_method = false;                       // programs may have more of them (Methods)
 };
 
 // One option: the location of its value, and its description.
 struct OptionField {
   using Target =
-      std::variant<bool*, int*, std::int64_t*, std::uint64_t*, double*, std::string*, EnumField>;
+      std::variant<bool*, int*, std::int64_t*, std::uint64_t*, double*, std::string*, NamedField>;
 
   std::string key;  // dotted, e.g. "mapping.ba.huber_px"
   std::string help;
@@ -36,7 +37,8 @@ struct OptionField {
   Target target;
 };
 
-// A removed option (options.h) that a text sets to another value than that of its constant.
+// A removed option (options.h) that a text sets to another value than that of its constant, or a
+// method that this program does not have.
 struct RemovedSetting {
   std::string key;       // dotted
   std::string found;     // the value of the text
@@ -60,16 +62,19 @@ struct RemovedSetting {
 // it to the value of its constant, so that those of earlier versions are read.
 class OptionTable {
  public:
+  // The program's own methods are allowed beside those of the library; those of options that T does
+  // not have are passed over.
   template <OptionGroup T>
-  explicit OptionTable(T& options) {
+  explicit OptionTable(T& options, const std::vector<AddedMethod>& added = {}) {
     Collect("", options);
+    for (const AddedMethod& method : added) Add(method);
   }
 
   // Reads a YAML file of nested groups (`ba: {huber_px: 2}`); dotted keys are accepted as well.
   void LoadFile(const std::filesystem::path& path);
   // Loads options from text; `source` stands for the file name in messages. With `on_removed`,
-  // removed options at other values than their constants are told to it and passed over, in place
-  // of an InputError.
+  // removed options at other values than their constants, and methods that this program does not
+  // have, are told to it and passed over, in place of an InputError.
   void LoadText(const std::string& text,
                 const std::string& source,
                 const std::function<void(const RemovedSetting&)>& on_removed = {});
@@ -79,8 +84,8 @@ class OptionTable {
   // "room.yaml:7".
   void Set(const std::string& key, const std::string& text, const std::string& where);
 
-  // Throws InputError if a number lies outside the range of its option. It is for numbers assigned
-  // to the struct directly, which no other check covers.
+  // Throws InputError if a number lies outside the range of its option, or no method has the name.
+  // It is for values assigned to the struct directly, which no other check covers.
   void CheckRanges() const;
 
   // Returns a YAML document of all options with help, range and choices as comments. LoadText
@@ -126,6 +131,17 @@ class OptionTable {
       (*this)(name, value, help);
       table->fields_.back().range = range;
     }
+    void operator()(std::string_view name,
+                    std::string& value,
+                    std::string_view help,
+                    Methods methods) const {
+      (*this)(name, value, help);
+      table->fields_.back().target =
+          NamedField{std::move(methods.names),
+                     [&value] { return value; },
+                     [&value](const std::string& method) { value = method; },
+                     true};
+    }
   };
 
   template <class T>
@@ -142,20 +158,15 @@ class OptionTable {
   template <class T>
   static OptionField::Target TargetOf(T& value) {
     if constexpr (std::is_enum_v<T>) {
-      EnumField field;
+      NamedField field;
       for (const auto& [enumerator, name] : EnumNames(std::type_identity<T>{})) {
         field.names.emplace_back(name);
       }
-      field.get = [&value] {
-        std::size_t index = 0;
+      field.get = [&value] { return NameOf(value); };
+      field.set = [&value](const std::string& wanted) {
         for (const auto& [enumerator, name] : EnumNames(std::type_identity<T>{})) {
-          if (enumerator == value) break;
-          ++index;
+          if (wanted == name) value = enumerator;
         }
-        return index;
-      };
-      field.set = [&value](std::size_t index) {
-        value = EnumNames(std::type_identity<T>{})[index].first;
       };
       return field;
     } else {
@@ -163,6 +174,8 @@ class OptionTable {
     }
   }
 
+  void Add(const AddedMethod& method);
+  OptionField* FindField(std::string_view key);
   bool IsGroup(std::string_view key) const;
   const RemovedOption* FindRemoved(std::string_view key) const;
 

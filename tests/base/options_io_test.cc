@@ -53,6 +53,7 @@ struct OuterOptions {
   std::uint64_t seed = 0;
   InnerOptions ba;
   std::int64_t offset = -3;
+  std::string search = "near";
 };
 
 template <class Visitor>
@@ -63,7 +64,11 @@ void VisitFields(Visitor&& visit, OuterOptions& o) {
   visit("seed", o.seed, "seed of all randomness");
   visit("ba", o.ba, "bundle adjustment");
   visit("offset", o.offset, "offset");
+  visit("search", o.search, "how to look: near (around the last place)", Methods{{"near", "far"}});
 }
+
+const std::vector<AddedMethod> kMore = {{"search", "wide", "everywhere"},
+                                        {"of.another.struct", "wide", "everywhere"}};
 
 std::string ErrorOfYaml(const std::string& yaml) {
   OuterOptions options;
@@ -91,7 +96,8 @@ TEST(OptionTable, ListsKeysInOrder) {
   OuterOptions options;
   EXPECT_THAT(
       OptionTable(options).Keys(),
-      ElementsAre("lines", "shape", "title", "seed", "ba.huber_px", "ba.iterations", "offset"));
+      ElementsAre(
+          "lines", "shape", "title", "seed", "ba.huber_px", "ba.iterations", "offset", "search"));
 }
 
 TEST(OptionTable, ReadsEveryType) {
@@ -325,6 +331,37 @@ TEST(OptionTable, TellsOfRemovedOptionsInPlaceOfAnErrorWhereAsked) {
   EXPECT_EQ(told[0].message,
             "m.plb:1: ba.damping is no option any more: it is fixed at 0.5 (kDamping), found "
             "'0.6'");
+}
+
+TEST(OptionTable, KnowsTheMethodsOfTheLibraryAndThoseOfTheProgram) {
+  EXPECT_THAT(ErrorOfYaml("search: wide"),
+              HasSubstr("my.yaml:1: search: expected one of near | far, found 'wide'"));
+  OuterOptions options;
+  OptionTable table(options, kMore);
+  table.Set("search=wide");
+  EXPECT_EQ(options.search, "wide");
+  EXPECT_THAT(table.Dump(),
+              HasSubstr("search: wide  # how to look: near (around the last place), wide "
+                        "(everywhere) (near | far | wide)\n"));
+  EXPECT_NO_THROW(table.CheckRanges());
+  EXPECT_THROW(OptionTable(options).CheckRanges(), InputError);
+  EXPECT_THROW(table.Set("search=deep"), InputError);
+  EXPECT_EQ(options.search, "wide");
+}
+
+// Saved options may name a method of another program.
+TEST(OptionTable, TellsOfMethodsThatTheProgramDoesNotHave) {
+  OuterOptions options;
+  OptionTable table(options);
+  std::vector<RemovedSetting> told;
+  const auto tell = [&](const RemovedSetting& setting) { told.push_back(setting); };
+  table.LoadText("search: wide\nseed: 4", "m.plb", tell);
+  EXPECT_EQ(options.search, "near");
+  EXPECT_EQ(options.seed, 4U);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].constant, "near");
+  EXPECT_EQ(told[0].message, "m.plb:1: search: expected one of near | far, found 'wide'");
+  EXPECT_THROW(table.LoadText("shape: oval", "m.plb", tell), InputError);
 }
 
 TEST(OptionTable, DumpsOptionsWithDottedKeysBehindOthers) {
