@@ -7,6 +7,7 @@
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
+#include "apps/program_methods.h"
 #include <iostream>
 #include <span>
 #include <string>
@@ -38,7 +39,7 @@ int ConfigCommand(std::span<const std::string> arguments) {
     return 0;
   }
   SlamOptions options;
-  OptionTable table(options);
+  OptionTable table(options, ProgramMethods().added);
   if (const auto name = line.Value("--preset")) LoadPreset(*name, table);
   for (const std::string& file : line.Values("--config")) table.LoadFile(file);
   for (const std::string& setting : line.Values("--set")) table.Set(setting);

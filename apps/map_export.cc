@@ -13,6 +13,7 @@
 #include "apps/command_outputs.h"
 #include "apps/exported_map.h"
 #include "apps/map_commands.h"
+#include "apps/program_methods.h"
 #include "apps/stop_signal.h"
 #include <filesystem>
 #include <iostream>
@@ -108,9 +109,12 @@ std::optional<std::string> Export(const CommandLine& line, const ExportRequest& 
   const std::string& name = line.Positional(0);
   SavedAtlas atlas = LoadAtlas(name);
   const SlamOptions options = SavedOptionsOrDefault(
-      atlas.context, name, "lines as by default", [](const std::string& text) {
-        std::clog << text << '\n';
-      });
+      atlas.context,
+      name,
+      "lines as by default",
+      [](const std::string& text) { std::clog << text << '\n'; },
+      {},
+      ProgramMethods().added);
   const SavedMap saved =
       SavedMapOf(std::move(ChooseMap(line, atlas.atlas)), atlas.context, atlas.file_version);
   MapExport wanted{request.format, request.out};

@@ -12,7 +12,7 @@ namespace plumbline {
 
 namespace {
 
-void CleanMaps(const LineOptions& lines, SavedAtlas& saved) {
+void CleanMaps(const LineSettings& lines, SavedAtlas& saved) {
   const CameraAndPyramid imaging{saved.context.camera, saved.context.octave_scale};
   for (const auto& [id, map] : saved.atlas.maps()) {
     saved.atlas.Find(id)->Apply(RemoveOutliers(map, imaging, lines));
@@ -21,7 +21,7 @@ void CleanMaps(const LineOptions& lines, SavedAtlas& saved) {
 
 }  // namespace
 
-MapSaver::MapSaver(std::filesystem::path file, const LineOptions& lines)
+MapSaver::MapSaver(std::filesystem::path file, const LineSettings& lines)
     : file_(std::move(file)), lines_(lines), writer_([this] { WriteUntilStopped(); }) {}
 
 MapSaver::~MapSaver() {

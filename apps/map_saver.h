@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/map/saved_atlas.h"
-#include "plumbline/matching/line_options.h"
+#include "plumbline/matching/line_method.h"
 
 #include <condition_variable>
 #include <filesystem>
@@ -20,7 +20,7 @@ namespace plumbline {
 class MapSaver {
  public:
   // The file is replaced as a whole each time (SaveAtlas). `lines` are the run's line options.
-  MapSaver(std::filesystem::path file, const LineOptions& lines);
+  MapSaver(std::filesystem::path file, const LineSettings& lines);
   // Completes the current file, and no more.
   ~MapSaver();
   MapSaver(const MapSaver&) = delete;
@@ -35,7 +35,7 @@ class MapSaver {
   void WriteUntilStopped();
 
   std::filesystem::path file_;
-  LineOptions lines_;
+  LineSettings lines_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<SavedAtlas> next_;

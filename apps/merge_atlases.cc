@@ -9,7 +9,7 @@
 #include "plumbline/slam/options.h"
 #include "plumbline/slam/saved_options.h"
 
-#include "apps/line_method.h"
+#include "apps/program_methods.h"
 #include <utility>
 
 #include <fmt/core.h>
@@ -50,10 +50,12 @@ std::string WhyNotMerged(MergeRefusal refusal) {
 // The options of the first map, as far as this program knows them.
 SlamOptions OptionsOf(const std::string& name, const AtlasContext& first, const Remark& remark) {
   return SavedOptionsOrDefault(
-      first, name, "merging with the default options", remark, [](SlamOptions& options) {
-        ChooseLineMethod(options);
-        CheckOptions(options);
-      });
+      first,
+      name,
+      "merging with the default options",
+      remark,
+      [](SlamOptions& options) { CheckOptions(options, ProgramMethods()); },
+      ProgramMethods().added);
 }
 
 // Throws if a transform moves a map farther than the largest valid coordinates of files, or scales
@@ -117,7 +119,8 @@ MergedAtlases MergeAtlases(NamedAtlas first,
                            merged.saved.atlas.active_id(),
                            gathered.second,
                            {context.camera, context.octave_scale},
-                           OptionsOf(first.name, context, remark));
+                           OptionsOf(first.name, context, remark),
+                           ProgramMethods());
     if (!found) {
       throw InputError(fmt::format("{} and {}: expected maps that show the same place, found {}",
                                    first.name,

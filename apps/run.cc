@@ -22,7 +22,7 @@
 #include "apps/command_line.h"
 #include "apps/command_outputs.h"
 #include "apps/commands.h"
-#include "apps/line_method.h"
+#include "apps/program_methods.h"
 #include "apps/run_frames.h"
 #include "apps/run_results.h"
 #include "apps/stop_signal.h"
@@ -141,7 +141,7 @@ bool IsLiveByDefault(const std::string& name) {
 RunSetup ReadSetup(const CommandLine& line) {
   RunSetup setup;
   if (IsLiveByDefault(line.Positional(0))) setup.options.slam.mode = RunMode::kLive;
-  OptionTable table(setup.options);
+  OptionTable table(setup.options, ProgramMethods().added);
   if (const auto preset = line.Value("--preset")) LoadPreset(*preset, table);
   const SlamOptions unset = setup.options;
   for (const std::string& file : line.Values("--config")) table.LoadFile(file);
@@ -152,8 +152,7 @@ RunSetup ReadSetup(const CommandLine& line) {
   }
   if (const auto mode = line.Value("--mode")) table.Set("slam.mode=" + *mode);
   if (const auto seed = line.Value("--seed")) table.Set("slam.seed=" + *seed);
-  ChooseLineMethod(setup.options);
-  CheckOptions(setup.options);
+  CheckOptions(setup.options, ProgramMethods());
   setup.options_yaml = table.Dump();
   setup.folder = line.Value("--out").value_or("plumbline_run");
   if (setup.folder == "-") throw InputError("--out: expected a folder, found -");
@@ -418,7 +417,7 @@ int RunCommand(std::span<const std::string> arguments) {
   const std::vector<RunInput> inputs = InputsOf(line, *input.dataset);
   CheckApart(setup.folder, inputs);
   if (setup.view.record) CheckRecording(*setup.view.record, setup.folder, inputs);
-  System system(input.dataset->calibration(), setup.options);
+  System system(input.dataset->calibration(), setup.options, {}, ProgramMethods());
   system.DescribeSession(PLUMBLINE_VERSION);
   const std::vector<std::string> map_notes = LoadMapInto(system, setup);
   RunFolder folder(setup.folder);

@@ -10,6 +10,7 @@
 #include "plumbline/viewer/viewer.h"
 
 #include "apps/map_saver.h"
+#include "apps/program_methods.h"
 #include "apps/progress.h"
 #include "apps/shortage.h"
 #include "apps/stop_signal.h"
@@ -67,7 +68,8 @@ class FrameFeed {
         views_(views),
         progress_(input.live != nullptr ? std::nullopt : std::optional(input.frames.size()), quiet),
         saver_(input.save_every_s > 0
-                   ? std::make_shared<MapSaver>(folder.part() / "map.plb", system.options().lines)
+                   ? std::make_shared<MapSaver>(folder.part() / "map.plb",
+                                                ProgramMethods().Lines(system.options().lines))
                    : nullptr),
         frames_(OpenFrames(input,
                            system.options().slam.mode,

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "lab/rivals/laboratory_methods.h"
 #include "lab/starts/sequence_truth.h"
 #include "lab/starts/start_bench.h"
 #include "lab/starts/start_figures.h"
 #include "plumbline/base/input_file.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/base/printable.h"
-#include "plumbline/initialization/make_initializer.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/open_dataset.h"
@@ -111,7 +111,7 @@ Setup ReadStartSetup(const CommandLine& line) {
   setup.preset = line.Value("--preset");
   if (setup.preset) setup.options = OptionsOfPreset(*setup.preset);
   const SlamOptions unset = RunOptionsOf(setup.options);
-  OptionTable table(setup.options);
+  OptionTable table(setup.options, LaboratoryMethods().added);
   for (const std::string& file : line.Values("--config")) table.LoadFile(file);
   std::vector<std::string> set = DifferentOptions(unset, RunOptionsOf(setup.options));
   for (const std::string& assignment : line.Values("--set")) {
@@ -238,8 +238,8 @@ void DrawMaps(const Dataset& dataset, const Setup& setup, StartPlan& plan) {
 
 StartResults Run(const Dataset& dataset, const Setup& setup, const StartPlan& plan) {
   const auto make_initializer = [&setup](const CameraAndPyramid& imaging) {
-    return MakeInitializer(
-        imaging, setup.options.initialization, static_cast<std::uint64_t>(setup.seed));
+    return LaboratoryMethods().make_initializer(
+        imaging, setup.options.initialization, static_cast<std::uint64_t>(setup.seed), nullptr);
   };
   Countdown progress("starts", plan.frames.size(), setup.quiet);
   return RunStarts(

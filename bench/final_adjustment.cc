@@ -14,7 +14,7 @@
 namespace {
 
 using plumbline::CameraAndPyramid;
-using plumbline::LineOptions;
+using plumbline::LineSettings;
 using plumbline::MappingOptions;
 
 void Measure(const char* path) {
@@ -25,7 +25,7 @@ void Measure(const char* path) {
   options.final_adjustment_keyframes = 1'000'000;
   const auto start = std::chrono::steady_clock::now();
   const plumbline::MapCorrection correction =
-      plumbline::AdjustWholeMap(saved.map, imaging, LineOptions{}, options);
+      plumbline::AdjustWholeMap(saved.map, imaging, LineSettings{}, options);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   fmt::print("{}: {} keyframes, {} points, {} lines, {} poses moved, {:.2f} s\n",
              path,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/line_cutting/cut_lines.h"
+#include "lab/rivals/choose_features.h"
 
 #include "tests/line_cutting/random_points.h"
 
@@ -14,8 +14,8 @@ namespace {
 
 void Cut(benchmark::State& state, CuttingMethod method, CuttingInformation information) {
   const CuttingProblem problem = RandomProblem(1, static_cast<int>(state.range(0)));
-  const CuttingOptions options{method, information};
-  for (auto _ : state) benchmark::DoNotOptimize(CutLines(problem, options));
+  const CuttingRecipe recipe{method, information};
+  for (auto _ : state) benchmark::DoNotOptimize(CutLinesBy(recipe, problem));
 }
 
 void Choose(benchmark::State& state, CuttingMethod method) {

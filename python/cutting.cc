@@ -73,63 +73,29 @@ void ReadInformation(const py::object& value, CuttingProblem& problem) {
   }
 }
 
-CuttingOptions ReadMethod(const py::kwargs& given) {
-  CuttingOptions options;
-  options.method = CuttingMethod::kGreedySweeps;
-  const auto text = [](const char* name, py::handle value) {
-    if (!py::isinstance<py::str>(value)) {
-      throw InputError(std::string(name) + ": expected a text, found " + Describe(value));
-    }
-    return ReadText(value, name);
-  };
-  for (const auto& [key, value] : given) {
-    const std::string name = ReadText(key, "cut_lines");
-    if (name == "method") {
-      options.method = ParseChoice<CuttingMethod>("method", text("method", value));
-    } else if (name == "information") {
-      options.information =
-          ParseChoice<CuttingInformation>("information", text("information", value));
-    } else if (name == "drop_share") {
-      options.drop_share = *ReadDoubles(value, "drop_share", {}).data();
-      if (options.drop_share < 0 || options.drop_share > 1) {
-        throw InputError(fmt::format("drop_share: expected 0 to 1, found {}", options.drop_share));
-      }
-    } else {
-      throw InputError("cut_lines: expected the options method, information, drop_share, found " +
-                       name);
-    }
-  }
-  return options;
-}
-
 py::dict Cut(const RectifiedCamera& camera,
              py::handle segments,
              py::handle covariances,
              py::handle measured,
              py::handle sigma_px,
              const py::object& other_information,
-             const py::kwargs& given) {
+             const std::string& information) {
   CuttingProblem problem = ReadProblem(camera, segments, covariances, measured, sigma_px);
   ReadInformation(other_information, problem);
-  const CuttingOptions options = ReadMethod(given);
+  const auto kind = ParseChoice<CuttingInformation>("information", information);
   std::vector<LineCut> cuts;
   const std::vector<LineCut> whole(problem.lines.size());
   double before = 0, after = 0;
   {
     const py::gil_scoped_release release;
-    cuts = CutLines(problem, options);
-    before = LogDeterminantOf(problem, whole, options.information);
-    after = LogDeterminantOf(problem, cuts, options.information);
+    cuts = CutLines(problem, kind);
+    before = LogDeterminantOf(problem, whole, kind);
+    after = LogDeterminantOf(problem, cuts, kind);
   }
   std::vector<Eigen::Vector2d> ratios;
-  std::vector<bool> used;
-  for (const LineCut& cut : cuts) {
-    ratios.emplace_back(cut.first, cut.second);
-    used.push_back(cut.used);
-  }
+  for (const LineCut& cut : cuts) ratios.emplace_back(cut.first, cut.second);
   py::dict dict;
   dict["ratios"] = ToArray(ratios);
-  dict["used"] = ToArray(used);
   dict["log_det_whole"] = before;
   dict["log_det_cut"] = after;
   return dict;
@@ -204,9 +170,9 @@ void BindCutting(py::module_& module) {
              py::arg("measured"),
              py::arg("sigma_px") = 1.0,
              py::arg("other_information") = py::none(),
+             py::arg("information") = "independent",
              R"(cut_lines(camera, segments, covariances, measured, sigma_px=1.0,
-          other_information=None, *, method="greedy_sweeps", information="independent",
-          drop_share=0.3) -> dict
+          other_information=None, information="independent") -> dict
 
 Good line cutting (docs/methods/line-cutting.md): the piece of each 3D line that tells most about
 the pose of a camera. segments (N, 2, 3): ends in the camera's frame, before it; covariances
@@ -214,12 +180,12 @@ the pose of a camera. segments (N, 2, 3): ends in the camera's frame, before it;
 or (N,): of the measured lines across; other_information (6, 6): what else tells of the pose, for the
 left perturbation [rotation, translation].
 
-method: "none", "greedy", "greedy_sweeps", "joint" or "drop" (of drop_share of the lines; it keeps
-at least 4, as fewer fix no pose); information: "independent", "printed" or "correlated".
+Lines are cut one after the other, once. information, which cutting raises: "independent", "printed"
+or "correlated".
 
 "ratios" (N, 2): the piece from (1 - a) start + a end at the first to that at the second ratio;
-"used" (N,): False where a line is left out; "log_det_whole", "log_det_cut": logarithm of the
-determinant of the pose's information before and after. New arrays.)");
+"log_det_whole", "log_det_cut": logarithm of the determinant of the pose's information before and
+after. New arrays.)");
   module.def(
       "pose_information",
       [](const RectifiedCamera& camera,

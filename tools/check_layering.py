@@ -41,18 +41,20 @@ LAYERS = {
     "worlds": ["base", "geometry", "image", "io"],
     "line_maps": ["base", "geometry", "io", "eval", "report", "worlds"],
     "line_rivals": ["base", "geometry", "map", "matching", "optimization", "tracking"],
+    "rivals": ["base", "geometry", "features", "image", "map", "matching", "optimization", "solvers",
+               "line_cutting", "initialization", "tracking", "slam", "line_rivals"],
     "ceres_reference": ["base", "geometry", "optimization", "matching", "line_rivals"],
     "starts": ["base", "geometry", "image", "features", "map", "matching", "initialization", "io",
                "slam", "report"],
-    "cutting_testbed": ["base", "geometry", "optimization", "line_cutting"],
+    "cutting_testbed": ["base", "geometry", "optimization", "line_cutting", "rivals"],
     "experiments": ["base", "geometry", "image", "features", "map", "matching", "initialization",
                     "optimization", "tracking", "io", "slam", "starts", "worlds", "eval", "report",
-                    "line_maps", "line_cutting", "cutting_testbed"],
+                    "line_maps", "line_cutting", "cutting_testbed", "rivals"],
 }
 # The modules that are not in plumbline/, and where they are. The product includes none of them, and the
 # worlds include nothing of the laboratory.
 RENDERER = "worlds"
-LABORATORY = {"line_maps", "line_rivals", "ceres_reference", "starts", "cutting_testbed", "experiments"}
+LABORATORY = {"line_maps", "line_rivals", "rivals", "ceres_reference", "starts", "cutting_testbed", "experiments"}
 # third-party prefix -> the files that may include it (regular expression; those of the product without
 # plumbline/). Headers are left out but for three, so that nobody needs more than Eigen to include the library.
 THIRD_PARTY = {

@@ -19,9 +19,7 @@ int main() {
                                    problem.camera.Project(line.segment_in_cam.end)});
     problem.lines.push_back(line);
   }
-  CuttingOptions options;
-  options.method = CuttingMethod::kGreedy;
-  for (const LineCut& cut : CutLines(problem, options)) {
+  for (const LineCut& cut : CutLines(problem)) {
     std::cout << "from " << 100 * cut.first << " % to " << 100 * cut.second << " % of its length\n";
   }
 }

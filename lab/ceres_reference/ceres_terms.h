@@ -3,9 +3,9 @@
 #pragma once
 
 #include "lab/ceres_reference/ceres_derivatives.h"
+#include "lab/line_rivals/rival_ba.h"
 #include "plumbline/geometry/plucker.h"
 #include "plumbline/geometry/trimming.h"
-#include "plumbline/matching/line_method.h"
 #include "plumbline/optimization/problem.h"
 
 #include <memory>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/cutting_testbed/choice_trials.h"
 
+#include "lab/rivals/choose_features.h"
 #include "plumbline/base/error.h"
-#include "plumbline/line_cutting/choose_features.h"
 #include "plumbline/line_cutting/pose_information.h"
 #include "plumbline/optimization/residuals.h"
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/cutting_testbed/joint_optimizers.h"
 
+#include "lab/rivals/cutting_methods.h"
 #include "plumbline/base/error.h"
-#include "plumbline/line_cutting/cut_lines.h"
 #include "plumbline/line_cutting/pose_information.h"
 
 namespace plumbline {
@@ -34,7 +34,7 @@ Eigen::VectorXd OptimizeJointly(const CuttingProblem& problem,
                                 JointOptimizer optimizer) {
   const JointObjective objective(problem, information);
   const auto cut = [&](CuttingMethod method) {
-    return RatiosOf(CutLines(problem, {method, information}));
+    return RatiosOf(CutLinesBy({method, information}, problem));
   };
   switch (optimizer) {
     case JointOptimizer::kFull:

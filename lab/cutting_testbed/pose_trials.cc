@@ -3,6 +3,7 @@
 #include "lab/cutting_testbed/pose_trials.h"
 
 #include "lab/cutting_testbed/pose_from_lines.h"
+#include "lab/rivals/cutting_methods.h"
 #include "plumbline/base/error.h"
 #include "plumbline/line_cutting/cut_lines.h"
 
@@ -19,15 +20,15 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 enum class Weights { kNone, kScalar, kIndependent, kCorrelated };
 
 struct Recipe {
-  CuttingOptions cutting;
+  CuttingRecipe cutting;
   Weights weights = Weights::kNone;
   bool adjust_points = false;
   bool lengthen = false;
 };
 
 Recipe RecipeOf(PoseVariant variant) {
-  const CuttingOptions greedy{CuttingMethod::kGreedy};
-  const CuttingOptions drop{CuttingMethod::kDrop};
+  const CuttingRecipe greedy{CuttingMethod::kGreedy};
+  const CuttingRecipe drop{CuttingMethod::kDrop};
   switch (variant) {
     case PoseVariant::kFull:
       return {};
@@ -89,7 +90,7 @@ LineCut Lengthened(const LineCut& cut) {
 }
 
 std::vector<WeightedCut> Prepare(const CuttingProblem& problem, const Recipe& recipe) {
-  const std::vector<LineCut> cuts = CutLines(problem, recipe.cutting);
+  const std::vector<LineCut> cuts = CutLinesBy(recipe.cutting, problem);
   std::vector<WeightedCut> out;
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     const CuttableLine& line = problem.lines[i];

@@ -176,17 +176,16 @@ Experiment LineExperiment() {
   experiment.name = "lines";
   experiment.help = "points alone and with lines by each way to parametrize, weigh and make them";
   experiment.sequences = {{"worlds/*"}, {"euroc/*"}, {"kitti/*"}, {"tum/*"}, {"icl/*"}};
-  experiment.variants = {
-      {"points", {"features.lines=false"}},
-      {"plucker", {}},
-      {"plucker_left", {"lines.parametrization=plucker_left"}},
-      {"endpoints", {"lines.parametrization=endpoints"}},
-      {"projected", {"lines.residual=projected_ends"}},
-      {"projected_endpoints", {"lines.residual=projected_ends", "lines.parametrization=endpoints"}},
-      {"two_view", {"lines.reconstruction=two_view"}},
-      {"scalar", {"lines.weighting=scalar"}},
-      {"unweighted", {"lines.weighting=none"}},
-      {"constant", {"lines.weighting=none", "lines.constant_sigma_px=0.3"}}};
+  experiment.variants = {{"points", {"features.lines=false"}},
+                         {"plucker", {}},
+                         {"plucker_left", {"lines.residual=plucker_left"}},
+                         {"endpoints", {"lines.residual=endpoints"}},
+                         {"projected", {"lines.residual=projected_ends"}},
+                         {"projected_endpoints", {"lines.residual=projected_endpoints"}},
+                         {"two_view", {"lines.reconstruction=two_view"}},
+                         {"scalar", {"lines.weighting=scalar"}},
+                         {"unweighted", {"lines.weighting=none"}},
+                         {"constant", {"lines.weighting=none", "lines.constant_sigma_px=0.3"}}};
   HoldNoLinesParallel(experiment.variants);
   experiment.metrics = {"ate",
                         "ate_causal",
@@ -223,8 +222,8 @@ Experiment MonocularLineExperiment() {
   experiment.help = "points alone and with lines from one camera, by each way to begin the map";
   experiment.variants = {{"points", {"features.lines=false"}, mono},
                          {"plucker", {}, mono},
-                         {"plucker_left", {"lines.parametrization=plucker_left"}, mono},
-                         {"endpoints", {"lines.parametrization=endpoints"}, mono},
+                         {"plucker_left", {"lines.residual=plucker_left"}, mono},
+                         {"endpoints", {"lines.residual=endpoints"}, mono},
                          {"two_view_lines", {"lines.reconstruction=two_view"}, mono},
                          {"klt_start", {"initialization.method=rank1_klt"}, mono},
                          {"two_view_start", {"initialization.method=two_view"}, mono}};
@@ -246,8 +245,8 @@ std::vector<Variant> CuttingVariants() {
                                       {"L+Cut", {"features.points=false", "cutting.method=greedy"}},
                                       {"PL", {}},
                                       {"PL+Cut", {"cutting.method=greedy"}},
-                                      {"PL80", {"cutting.budget=80"}},
-                                      {"PL80+Cut", {"cutting.method=greedy", "cutting.budget=80"}}};
+                                      {"PL80", {"cutting.method=best_80"}},
+                                      {"PL80+Cut", {"cutting.method=best_80_greedy"}}};
   std::vector<Variant> variants;
   for (const bool blurred : {false, true}) {
     for (const Setting& reference : references) {
@@ -362,13 +361,11 @@ Experiment LineControlExperiment(bool mono) {
   for (const char* pattern : {"euroc/*", "kitti/*", "tum/*"}) {
     experiment.sequences.push_back({pattern});
   }
-  const std::vector<Setting> kinds = {{"points", {"features.lines=false"}},
-                                      {"plucker", {}},
-                                      {"endpoints", {"lines.parametrization=endpoints"}},
-                                      {"EPL",
-                                       {"lines.parametrization=endpoints",
-                                        "lines.residual=projected_ends",
-                                        "lines.reconstruction=two_view"}}};
+  const std::vector<Setting> kinds = {
+      {"points", {"features.lines=false"}},
+      {"plucker", {}},
+      {"endpoints", {"lines.residual=endpoints"}},
+      {"EPL", {"lines.residual=projected_endpoints", "lines.reconstruction=two_view"}}};
   for (const bool at_end : {true, false}) {
     for (const Setting& kind : kinds) {
       Variant variant{kind.name + (at_end ? "" : "_no_end"),

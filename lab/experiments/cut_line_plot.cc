@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/line_map_plots.h"
 #include "lab/experiments/paper_plots.h"
+#include "lab/rivals/laboratory_methods.h"
 #include "plumbline/base/base64.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
@@ -63,8 +64,11 @@ LinesOfKeyFrame CollectLines(const SavedMap& saved, const KeyFrame& keyframe) {
 }
 
 Overlay DrawCuts(const LinesOfKeyFrame& lines, const SlamOptions& options) {
-  const PoseProblem cut =
-      WithCutLines(lines.problem, lines.candidates, options.lines, options.cutting);
+  const SystemMethods& methods = LaboratoryMethods();
+  const PoseProblem cut = WithCutLines(lines.problem,
+                                       lines.candidates,
+                                       methods.Lines(options.lines),
+                                       {options.cutting, methods.choose_features});
   Overlay overlay;
   for (const auto& match : lines.problem.lines) {
     overlay.segments.push_back({match.measurement.segment, kMeasured});
@@ -88,7 +92,7 @@ std::string CutLinePlot(const Plan& plan, const Job& job) {
   const SavedMap saved = LoadMap(job.folder / "map.plb");
   const KeyFrame& keyframe = KeyFrameWithMostLines(saved.map);
   SlamOptions options;
-  OptionTable(options).LoadFile(job.folder / "options.yaml");
+  OptionTable(options, LaboratoryMethods().added).LoadFile(job.folder / "options.yaml");
   const GrayImage image =
       ToGray(KeyFrameImages(plan.SequenceOf(job).path, {}, saved).Read(keyframe));
   const std::string png = EncodeOverlayPng(image, DrawCuts(CollectLines(saved, keyframe), options));

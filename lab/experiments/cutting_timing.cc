@@ -4,8 +4,8 @@
 
 #include "lab/cutting_testbed/joint_optimizers.h"
 #include "lab/cutting_testbed/scene.h"
+#include "lab/rivals/cutting_methods.h"
 #include "plumbline/base/options.h"
-#include "plumbline/line_cutting/cut_lines.h"
 
 #include <algorithm>
 #include <array>
@@ -37,7 +37,7 @@ Trials TryMethod(CuttingMethod method, int lines, int repeats) {
         MakeCuttingScene({SceneKind::kStereo, kNoise, lines}, static_cast<std::uint64_t>(i));
     const JointObjective objective(scene.problem, CuttingInformation::kIndependent);
     const auto start = std::chrono::steady_clock::now();
-    const std::vector<LineCut> cuts = CutLines(scene.problem, {method});
+    const std::vector<LineCut> cuts = CutLinesBy({method}, scene.problem);
     const auto end = std::chrono::steady_clock::now();
     trials.milliseconds.push_back(std::chrono::duration<double, std::milli>(end - start).count());
     Eigen::VectorXd gradient(objective.size());

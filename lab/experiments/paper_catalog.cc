@@ -99,13 +99,11 @@ std::vector<Variant> RipplSystems() {
   return {{"RIPPL", {}, kRippl},
           {"EPL",
            With(StartSettings("two_view"),
-                {"lines.parametrization=endpoints",
-                 "lines.residual=projected_ends",
-                 "lines.reconstruction=two_view"}),
+                {"lines.residual=projected_endpoints", "lines.reconstruction=two_view"}),
            kRippl},
           {"PPL",
            With(StartSettings("two_view"),
-                {"lines.parametrization=plucker_left", "lines.reconstruction=two_view"}),
+                {"lines.residual=plucker_left", "lines.reconstruction=two_view"}),
            kRippl}};
 }
 

@@ -3,6 +3,7 @@
 #include "lab/experiments/plan.h"
 
 #include "lab/experiments/reversed_sequence.h"
+#include "lab/rivals/laboratory_methods.h"
 #include "lab/starts/start_bench.h"
 #include "plumbline/base/crc32.h"
 #include "plumbline/base/error.h"
@@ -30,7 +31,7 @@ const std::string kMark = "job.txt";
 template <class Options>
 void CheckSettingsAs(const Experiment& experiment, const std::vector<std::string>& settings) {
   Options options;
-  OptionTable table(options);
+  OptionTable table(options, LaboratoryMethods().added);
   for (const std::string& setting : settings) table.Set(setting);
   for (const Variant& variant : experiment.variants) {
     for (const std::string& setting : variant.settings) table.Set(setting);

@@ -3,11 +3,27 @@
 #pragma once
 
 #include "plumbline/base/stop_check.h"
-#include "plumbline/matching/line_method.h"
 #include "plumbline/optimization/bundle_adjustment.h"
 #include "plumbline/optimization/problem.h"
 
 namespace plumbline {
+
+// Parametrization of a line in bundle adjustment.
+enum class LineParametrization {
+  kPlucker,  // orthonormal form of the Plücker coordinates, 4 parameters
+  // Orthonormal form turned about the axes of the frame: U <- Exp(theta) U, as PPL-SLAM does.
+  kPluckerLeft,
+  // Two points, 6 parameters. Those along the line are free: no image determines them.
+  kEndpoints,
+};
+
+// The two residuals of a line in an image, in pixels.
+enum class LineResidualKind {
+  // Distances of the measured ends from the projected infinite line (first paper, eq. 13).
+  kObservedEnds,
+  // Distances of the projected ends from the measured infinite line (second paper, eq. 1).
+  kProjectedEnds,
+};
 
 // A kind of line in optimization. The residual determines the cost at the minimum, the parameters
 // the convergence; docs/benchmarks.md compares their speed.

@@ -4,7 +4,6 @@
 
 #include "lab/line_rivals/line_ends.h"
 #include "lab/line_rivals/line_from_ends.h"
-#include "lab/line_rivals/rival_ba.h"
 #include "plumbline/tracking/projected_matches.h"
 
 #include <cstddef>
@@ -57,19 +56,39 @@ std::optional<MapLine> LineFromTwoViews(const Map& map,
 
 }  // namespace
 
+RivalLines RivalLinesOf(const std::string& residual) {
+  RivalLines lines;
+  if (residual.starts_with("projected_")) lines.residual = LineResidualKind::kProjectedEnds;
+  if (residual.ends_with("plucker_left")) lines.parametrization = LineParametrization::kPluckerLeft;
+  if (residual.ends_with("endpoints")) lines.parametrization = LineParametrization::kEndpoints;
+  return lines;
+}
+
+std::vector<AddedMethod> AddedLineMethods() {
+  const std::string residual = "lines.residual";
+  return {{residual, "plucker_left", "observed_ends, of lines turned about the axes of the frame"},
+          {residual, "projected_plucker_left", "projected_ends of the same"},
+          {residual, "endpoints", "observed_ends, of lines that are two points"},
+          {residual, "projected_endpoints", "projected_ends of the same"},
+          {"lines.reconstruction", "two_view", "the closest pair that agrees"}};
+}
+
 LineMethod MethodFor(const LineOptions& options) {
-  LineMethod method = ProductLineMethod(options);
-  method.parametrization = options.parametrization;
-  method.reconstruction = options.reconstruction;
-  method.keeps_ends = options.parametrization == LineParametrization::kEndpoints;
-  if (options.reconstruction == LineReconstruction::kTwoView) {
+  const auto [parametrization, residual] = RivalLinesOf(options.residual);
+  LineOptions of_product = options;
+  const bool projected = residual == LineResidualKind::kProjectedEnds;
+  of_product.residual = projected ? "projected_ends" : "observed_ends";
+  LineMethod method = ProductLineMethod(of_product);
+  method.keeps_ends = parametrization == LineParametrization::kEndpoints;
+  if (options.reconstruction == "two_view") {
     method.line_from_views = method.keeps_ends ? LineFromTwoEnds : LineFromTwoViews;
   }
-  method.adjust_window = SolverFor<LineResidualKind::kObservedEnds>(options.parametrization);
+  method.adjust_window = SolverFor<LineResidualKind::kObservedEnds>(parametrization);
   method.adjust_map = method.adjust_window;
-  if (options.residual != LineResidualKind::kProjectedEnds) return method;
+  if (!projected) return method;
+  method.only_odometry = false;
   method.complete_window = WeighProjectedEnds;
-  method.adjust_window = SolverFor<LineResidualKind::kProjectedEnds>(options.parametrization);
+  method.adjust_window = SolverFor<LineResidualKind::kProjectedEnds>(parametrization);
   return method;
 }
 

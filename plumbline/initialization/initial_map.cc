@@ -232,16 +232,4 @@ void AdjustMap(const RectifiedCamera& camera, InitialMap& map) {
   ScaleToMedianDepth(map);
 }
 
-std::optional<InitialMap> TriangulateAndAdjustMap(const RectifiedCamera& camera,
-                                                  std::vector<InitialView> views,
-                                                  std::span<const FeatureTrack> point_tracks,
-                                                  std::span<const FeatureTrack> line_tracks,
-                                                  std::size_t min_points) {
-  InitialMap map = TriangulateMap(camera, std::move(views), point_tracks, line_tracks);
-  if (map.points.size() < min_points) return std::nullopt;
-  AdjustMap(camera, map);
-  if (map.points.size() < min_points) return std::nullopt;
-  return map;
-}
-
 }  // namespace plumbline

@@ -17,8 +17,7 @@
 
 namespace plumbline {
 
-// Input frame of an initializer. The image is needed by rank1_klt and two_view_images, and by rank1
-// unless it matches by descriptor.
+// Input frame of an initializer. The image is needed by rank1, unless it matches by descriptor.
 struct InitializationFrame {
   FrameId id;
   std::int64_t stamp_ns = 0;
@@ -90,12 +89,5 @@ void ScaleToMedianDepth(InitialMap& map);
 //   map   not empty; the first view's camera is the world
 //   cost  some milliseconds for three views and 300 points
 void AdjustMap(const RectifiedCamera& camera, InitialMap& map);
-
-// Calls TriangulateMap and AdjustMap; returns nullopt if fewer than `min_points` points remain.
-std::optional<InitialMap> TriangulateAndAdjustMap(const RectifiedCamera& camera,
-                                                  std::vector<InitialView> views,
-                                                  std::span<const FeatureTrack> point_tracks,
-                                                  std::span<const FeatureTrack> line_tracks,
-                                                  std::size_t min_points);
 
 }  // namespace plumbline

@@ -212,22 +212,4 @@ ReferenceMatches MatchToReference(const Features& reference,
   return result;
 }
 
-std::vector<RayMatch> RayMatchesOf(const RectifiedCamera& camera,
-                                   const Features& a,
-                                   const Features& b,
-                                   std::span<const PointMatch> matches) {
-  const double focal = 0.5 * (camera.fx + camera.fy);
-  std::vector<RayMatch> rays;
-  rays.reserve(matches.size());
-  for (const PointMatch& match : matches) {
-    const PointFeature& in_a = a.points[Index(match.a)];
-    const PointFeature& in_b = b.points[Index(match.b)];
-    rays.push_back({camera.Unproject(in_a.px).head<2>(),
-                    camera.Unproject(in_b.px).head<2>(),
-                    in_a.sigma_px / focal,
-                    in_b.sigma_px / focal});
-  }
-  return rays;
-}
-
 }  // namespace plumbline

@@ -79,10 +79,4 @@ ReferenceMatches MatchToReference(const Features& reference,
                                   const Features& frame,
                                   const ImageMotion& guess = {});
 
-// Returns the matches as rays, for two-view solvers, in order.
-std::vector<RayMatch> RayMatchesOf(const RectifiedCamera& camera,
-                                   const Features& a,
-                                   const Features& b,
-                                   std::span<const PointMatch> matches);
-
 }  // namespace plumbline

@@ -6,19 +6,11 @@
 #include "plumbline/solvers/relative_pose.h"
 
 #include <array>
+#include <string>
 #include <type_traits>
 #include <utility>
 
 namespace plumbline {
-
-enum class InitializationMethod { kRank1, kRank1Pairwise, kRank1Klt, kTwoView, kTwoViewImages };
-constexpr auto EnumNames(std::type_identity<InitializationMethod>) {
-  return std::array{std::pair{InitializationMethod::kRank1, "rank1"},
-                    std::pair{InitializationMethod::kRank1Pairwise, "rank1_pairwise"},
-                    std::pair{InitializationMethod::kRank1Klt, "rank1_klt"},
-                    std::pair{InitializationMethod::kTwoView, "two_view"},
-                    std::pair{InitializationMethod::kTwoViewImages, "two_view_images"}};
-}
 
 // Matching of points in the frames after the reference.
 enum class InitialMatching { kImages, kDescriptors };
@@ -62,7 +54,7 @@ void VisitFields(Visitor&& visit, PairwiseOptions& o) {
 }
 
 struct InitializationOptions {
-  InitializationMethod method = InitializationMethod::kRank1;
+  std::string method = "rank1";
   // Frames after the reference that are solved together: m of the first paper.
   int frames = 3;
   RelativePoseMethod relative_pose = RelativePoseMethod::kFivePoint;
@@ -80,9 +72,8 @@ void VisitFields(Visitor&& visit, InitializationOptions& o) {
         o.method,
         "of a monocular start: rank1 (factorization of several frames, completed by geometric "
         "interpolation), rank1_pairwise (the same as the first paper has it: each frame's pose by "
-        "itself, and a start at once), rank1_klt (of tracks alive in all frames), two_view "
-        "(fundamental matrix or homography of two frames as ORB-SLAM decides, points matched by "
-        "descriptor), two_view_images (the same from the matches and with the patience of rank1)");
+        "itself, and a start at once)",
+        Methods{{"rank1", "rank1_pairwise"}});
   visit("frames", o.frames, "frames after the reference that are solved together", Range{2, 30});
   visit("relative_pose",
         o.relative_pose,

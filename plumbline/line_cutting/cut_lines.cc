@@ -5,24 +5,13 @@
 #include "plumbline/base/error.h"
 #include "plumbline/line_cutting/cut_residuals.h"
 #include "plumbline/line_cutting/pose_information.h"
-#include "plumbline/line_cutting/ratio_ascent.h"
 #include "plumbline/line_cutting/single_line.h"
 #include "plumbline/optimization/residuals.h"
 
-#include <algorithm>
-#include <numeric>
-#include <utility>
+#include <cstddef>
 
 namespace plumbline {
 namespace {
-
-constexpr int kMaxSweeps = 20;
-// Sweeps end when one raises log det by less than this.
-constexpr double kSweepTolerance = 1e-4;
-// Fewer lines than this do not fix a pose, so that drop leaves at least as many.
-constexpr std::size_t kMinLinesKept = 4;
-
-using Cuts = std::vector<LineCut>;
 
 void Check(const CuttingProblem& problem) {
   for (const CuttableLine& line : problem.lines) {
@@ -33,8 +22,12 @@ void Check(const CuttingProblem& problem) {
   }
 }
 
-// Does one pass over all lines (Algorithm 1). Returns the increase of log det.
-double Sweep(const CuttingProblem& problem, CuttingInformation information, Cuts& cuts) {
+}  // namespace
+
+double CutEachLine(const CuttingProblem& problem,
+                   CuttingInformation information,
+                   std::vector<LineCut>& cuts) {
+  Check(problem);
   InformationSums sums = SumInformation(problem, cuts, information);
   double gain = 0;
   for (std::size_t i = 0; i < cuts.size(); ++i) {
@@ -47,89 +40,10 @@ double Sweep(const CuttingProblem& problem, CuttingInformation information, Cuts
   return gain;
 }
 
-Cuts CutGreedily(const CuttingProblem& problem, CuttingInformation information, int max_sweeps) {
-  Cuts cuts(problem.lines.size());
-  if (Sweep(problem, information, cuts) < kSweepTolerance) return cuts;
-  for (int sweep = 1; sweep < max_sweeps; ++sweep) {
-    Cuts better = cuts;
-    const double gain = Sweep(problem, information, better);
-    // The printed information grows without bound if it becomes singular, so that log det is
-    // computed anew from the cuts.
-    const double before = LogDeterminantOf(problem, cuts, information);
-    if (!(LogDeterminantOf(problem, better, information) >= before)) break;
-    cuts = std::move(better);
-    if (gain < kSweepTolerance) break;
-  }
+std::vector<LineCut> CutLines(const CuttingProblem& problem, CuttingInformation information) {
+  std::vector<LineCut> cuts(problem.lines.size());
+  CutEachLine(problem, information, cuts);
   return cuts;
-}
-
-Cuts CutsOf(const Eigen::VectorXd& ratios) {
-  Cuts cuts(static_cast<std::size_t>(ratios.size() / 2));
-  for (std::size_t i = 0; i < cuts.size(); ++i) {
-    const Eigen::Vector2d pair = ratios.segment<2>(2 * static_cast<Eigen::Index>(i));
-    cuts[i] = {pair.minCoeff(), pair.maxCoeff()};
-  }
-  return cuts;
-}
-
-Cuts CutJointly(const CuttingProblem& problem, CuttingInformation information) {
-  const auto size = static_cast<Eigen::Index>(problem.lines.size());
-  Eigen::VectorXd full(2 * size);
-  for (Eigen::Index i = 0; i < size; ++i) full.segment<2>(2 * i) << 0, 1;
-  const auto objective = [&](const Eigen::VectorXd& ratios, Eigen::VectorXd& gradient) {
-    Cuts cuts(problem.lines.size());
-    for (std::size_t i = 0; i < cuts.size(); ++i) {
-      const auto k = 2 * static_cast<Eigen::Index>(i);
-      cuts[i] = {ratios(k), ratios(k + 1)};
-    }
-    return LogDeterminantOf(problem, cuts, information, &gradient);
-  };
-  return CutsOf(Ascend<Eigen::Dynamic>(objective, full).ratios);
-}
-
-// Returns the mean variance of the two residuals of the line at full length.
-double Uncertainty(const RectifiedCamera& camera, const CuttableLine& line) {
-  const Eigen::Matrix2d weight = CutWeight(camera, line, {}, CuttingInformation::kIndependent);
-  return 0.5 * (1 / weight(0, 0) + 1 / weight(1, 1));
-}
-
-Cuts DropLines(const CuttingProblem& problem, double share) {
-  const std::size_t size = problem.lines.size();
-  std::vector<double> uncertainty(size);
-  for (std::size_t i = 0; i < size; ++i) {
-    uncertainty[i] = Uncertainty(problem.camera, problem.lines[i]);
-  }
-  std::vector<std::size_t> worst_first(size);
-  std::iota(worst_first.begin(), worst_first.end(), std::size_t{0});
-  std::stable_sort(worst_first.begin(), worst_first.end(), [&](std::size_t a, std::size_t b) {
-    return uncertainty[a] > uncertainty[b];
-  });
-  const std::size_t kept =
-      std::max(std::min(size, kMinLinesKept),
-               size - static_cast<std::size_t>(share * static_cast<double>(size)));
-  Cuts cuts(size);
-  for (std::size_t k = 0; k < size - kept; ++k) cuts[worst_first[k]].used = false;
-  return cuts;
-}
-
-}  // namespace
-
-std::vector<LineCut> CutLines(const CuttingProblem& problem, const CuttingOptions& options) {
-  Check(problem);
-  switch (options.method) {
-    case CuttingMethod::kNone:
-    case CuttingMethod::kTrim:  // what trims gives trimmed lines (WithCutLines)
-      break;
-    case CuttingMethod::kGreedy:
-      return CutGreedily(problem, options.information, 1);
-    case CuttingMethod::kGreedySweeps:
-      return CutGreedily(problem, options.information, kMaxSweeps);
-    case CuttingMethod::kJoint:
-      return CutJointly(problem, options.information);
-    case CuttingMethod::kDrop:
-      return DropLines(problem, options.drop_share);
-  }
-  return Cuts(problem.lines.size());
 }
 
 Eigen::Matrix2d CutWeight(const RectifiedCamera& camera,
@@ -137,6 +51,23 @@ Eigen::Matrix2d CutWeight(const RectifiedCamera& camera,
                           const LineCut& cut,
                           CuttingInformation information) {
   return EvaluateCut(camera, line, cut, information).weight;
+}
+
+Matrix6d SumPoints(std::span<const PointRows> points, const std::vector<bool>& used) {
+  PLUMBLINE_CHECK(used.empty() || used.size() == points.size(), "one mark for each point");
+  Matrix6d sum = Matrix6d::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (used.empty() || used[i]) sum.noalias() += points[i].transpose() * points[i];
+  }
+  return sum;
+}
+
+ChosenFeatures ChooseAll(const CuttingProblem& problem,
+                         std::span<const PointRows> points,
+                         const CuttingOptions& options) {
+  CuttingProblem with_points = problem;
+  with_points.other_information += SumPoints(points);
+  return {std::vector<bool>(points.size(), true), CutLines(with_points, options.information)};
 }
 
 }  // namespace plumbline

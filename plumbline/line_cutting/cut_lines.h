@@ -4,6 +4,7 @@
 
 #include "plumbline/line_cutting/cutting_problem.h"
 
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,7 +14,7 @@
 // the paper.
 namespace plumbline {
 
-// Returns cuts for all lines, in their order.
+// Returns cuts for all lines, in their order, that raise the information of the pose.
 //
 // Use:
 //   1. At the predicted pose, transform matched lines into the camera's frame; drop those with
@@ -29,19 +30,24 @@ namespace plumbline {
 //      weights of whole lines do not apply to cut points.
 //   4. Cut again only after large motions: the cuts depend weakly on the pose.
 //
-// Method: gradient ascent on log det of the pose information (eq. 7) with its analytic gradient.
-// Each single line is started from full length and from either end (section 5.1); for the joint
-// search see CuttingMethod. sigma_px is a floor: without it a line whose depth error lies along the
+// Method: one line after the other, once (Algorithm 1), each by gradient ascent on log det of the
+// pose information (eq. 7) with its analytic gradient, started from full length and from either
+// end (section 5.1). sigma_px is a floor: without it a line whose depth error lies along the
 // viewing ray would be infinitely informative. Undetermined directions of the pose have
 // kPriorInformation. Fewer than three lines have no printed information; they stay whole.
 //
-// options.budget is not used here: with a budget, a run chooses points and lines together.
-//
-// In the chosen information a cut is never worse than full length. Deterministic; greedy depends on
-// the order of the lines. Throws BugError if an end of a line has z <= 1e-6 m, or a sigma_px is not
-// positive.
-//   cost: 60 lines 0.1 ms with greedy and independent; correlated twice, printed 25 times that
-std::vector<LineCut> CutLines(const CuttingProblem& problem, const CuttingOptions& options);
+// In the chosen information a cut is never worse than full length. Deterministic; the cuts depend
+// on the order of the lines. Throws BugError if an end of a line has z <= 1e-6 m, or a sigma_px is
+// not positive.
+//   cost: 60 lines 0.1 ms with independent; correlated twice, printed 25 times that
+std::vector<LineCut> CutLines(const CuttingProblem& problem,
+                              CuttingInformation information = CuttingInformation::kIndependent);
+
+// Cuts one line after the other, once, beginning with given cuts. Returns the increase of log det.
+// BugError as CutLines.
+double CutEachLine(const CuttingProblem& problem,
+                   CuttingInformation information,
+                   std::vector<LineCut>& cuts);
 
 // Returns the weight of the two residuals of a cut line, the distances of its cut points from the
 // measured image line, in their order. With the gradient g of a residual with respect to its cut
@@ -54,5 +60,31 @@ Eigen::Matrix2d CutWeight(const RectifiedCamera& camera,
                           const CuttableLine& line,
                           const LineCut& cut,
                           CuttingInformation information);
+
+// Linearized point for the pose: the derivatives of its whitened residuals (2, or 3 with a
+// disparity) with respect to the left perturbation exp([rotation, translation]).
+using PointRows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, 3, 6>;
+
+// Returns the sum of rows^T rows over the points in use (all points if `used` is empty).
+Matrix6d SumPoints(std::span<const PointRows> points, const std::vector<bool>& used = {});
+
+// The features that decide about the pose of a frame.
+struct ChosenFeatures {
+  std::vector<bool> points;    // true for each point in use
+  std::vector<LineCut> lines;  // LineCut::used, and the cut of each line
+  bool others = true;          // whether lines that could not be offered are in use, whole
+  bool trim = false;           // whether lines left whole are trimmed to what is measured of them
+};
+
+// Returns all points, and lines cut as by CutLines with the points as the constant part.
+ChosenFeatures ChooseAll(const CuttingProblem& problem,
+                         std::span<const PointRows> points,
+                         const CuttingOptions& options);
+
+// The options of cutting and the function that carries them out, where cutting.method is not none.
+struct CuttingSettings : CuttingOptions {
+  // Chooses the features from the matched points and the lines that can be cut.
+  decltype(&ChooseAll) choose = ChooseAll;
+};
 
 }  // namespace plumbline

@@ -8,6 +8,7 @@
 #include "plumbline/geometry/segment.h"
 
 #include <array>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -18,15 +19,6 @@
 // are those of that paper, called the second paper in descriptions of options.
 namespace plumbline {
 
-// Search for the cuts of all lines.
-enum class CuttingMethod {
-  kNone,          // all lines keep their full length
-  kTrim,          // a control: trimmed to the measured segment, as lines are before a cut; not cut
-  kGreedy,        // Algorithm 1: one line after the other, once
-  kGreedySweeps,  // Algorithm 1 again until nothing changes
-  kJoint,         // all ratios at once, gradient ascent from full length
-  kDrop,          // drops the most uncertain lines, the others stay whole
-};
 // Pose information of the two cut points of a line, which cutting maximizes.
 enum class CuttingInformation {
   // J^T W J: the two cut points are independent, as in the paper.
@@ -42,14 +34,6 @@ enum class CuttingEnds {
   kInverseDepth,
 };
 
-constexpr auto EnumNames(std::type_identity<CuttingMethod>) {
-  return std::array{std::pair{CuttingMethod::kNone, "none"},
-                    std::pair{CuttingMethod::kTrim, "trim"},
-                    std::pair{CuttingMethod::kGreedy, "greedy"},
-                    std::pair{CuttingMethod::kGreedySweeps, "greedy_sweeps"},
-                    std::pair{CuttingMethod::kJoint, "joint"},
-                    std::pair{CuttingMethod::kDrop, "drop"}};
-}
 constexpr auto EnumNames(std::type_identity<CuttingInformation>) {
   return std::array{std::pair{CuttingInformation::kIndependent, "independent"},
                     std::pair{CuttingInformation::kPrinted, "printed"},
@@ -60,25 +44,21 @@ constexpr auto EnumNames(std::type_identity<CuttingEnds>) {
                     std::pair{CuttingEnds::kInverseDepth, "inverse_depth"}};
 }
 
-// Settings of line cutting. CutLines uses method, information and drop_share; ends, end_sigma and
-// budget are only for runs.
+// Settings of line cutting in a run.
 struct CuttingOptions {
-  CuttingMethod method = CuttingMethod::kNone;
+  std::string method = "none";
   CuttingInformation information = CuttingInformation::kIndependent;
   CuttingEnds ends = CuttingEnds::kLandmark;
   double end_sigma = 0.005;
-  double drop_share = 0.3;
-  int budget = 0;
 };
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, CuttingOptions& o) {
   visit("method",
         o.method,
-        "of cutting lines before the pose is optimized: none, trim (to the measured segment, as "
-        "before a cut, and no further), greedy (one line after the other, once), greedy_sweeps "
-        "(until nothing changes), joint (all at once), drop (leave out the "
-        "most uncertain lines instead)");
+        "of cutting lines before the pose is optimized: none, greedy (one line after the other, "
+        "once)",
+        Methods{{"none", "greedy"}});
   visit("information",
         o.information,
         "what cutting maximizes: independent (errors of the two cut points taken as independent), "
@@ -93,15 +73,18 @@ void VisitFields(Visitor&& visit, CuttingOptions& o) {
         "deviation with inverse_depth: of the inverse depth [1/m], of column and row in units of "
         "the focal length (the second paper simulates 0.005 and 0.015)",
         Range{1e-6, 1});
-  visit("drop_share",
-        o.drop_share,
-        "of the lines that drop leaves out; at least 4 stay",
-        Range{0, 1});
-  visit("budget",
-        o.budget,
-        "points and lines that decide about the pose of a frame, chosen together by what they tell "
-        "about it (0: all)",
-        Range{0, 100000});
+}
+
+// The options of cutting that went, and what serves instead.
+inline std::vector<RemovedOption> RemovedOptions(std::type_identity<CuttingOptions> /*of*/) {
+  return {{"drop_share",
+           "it is fixed at 0.3 (kDropShare) in builds with the laboratory, which have "
+           "cutting.method=drop",
+           "0.3"},
+          {"budget",
+           "all points and lines decide about the pose (0); builds with the laboratory have "
+           "cutting.method=best_80",
+           "0"}};
 }
 
 // A matched 3D line, linearized at the current pose estimate.

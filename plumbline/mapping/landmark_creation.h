@@ -4,7 +4,7 @@
 
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/options.h"
-#include "plumbline/matching/line_options.h"
+#include "plumbline/matching/line_method.h"
 #include "plumbline/matching/projection_search.h"
 
 #include <cstddef>
@@ -48,6 +48,6 @@ MapEdit CreatePointsFromViews(const Map& map,
 MapEdit CreateLinesFromViews(const Map& map,
                              const CameraAndPyramid& imaging,
                              KeyFrameId id,
-                             const LineOptions& lines = {});
+                             const LineSettings& lines = {});
 
 }  // namespace plumbline

@@ -142,7 +142,7 @@ constexpr std::size_t kFewestViews = 3;
 // Compares landmarks with their observations, at the poses of the map.
 class OutlierSearch {
  public:
-  OutlierSearch(const Map& map, const CameraAndPyramid& imaging, const LineOptions& lines)
+  OutlierSearch(const Map& map, const CameraAndPyramid& imaging, const LineSettings& lines)
       : map_(map),
         imaging_(imaging),
         weights_(lines.weights()),
@@ -353,7 +353,7 @@ MapEdit RemoveRevisitedKeyFrames(const Map& map, KeyFrameId centre, const Cleanu
   return edit;
 }
 
-MapEdit RemoveOutliers(const Map& map, const CameraAndPyramid& imaging, const LineOptions& lines) {
+MapEdit RemoveOutliers(const Map& map, const CameraAndPyramid& imaging, const LineSettings& lines) {
   const OutlierSearch search(map, imaging, lines);
   MapEdit edit;
   for (const auto& [id, point] : map.points()) {

@@ -5,7 +5,7 @@
 #include "plumbline/map/landmarks.h"
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/options.h"
-#include "plumbline/matching/line_options.h"
+#include "plumbline/matching/line_method.h"
 #include "plumbline/matching/projection_search.h"
 
 namespace plumbline {
@@ -41,6 +41,6 @@ MapEdit RemoveRevisitedKeyFrames(const Map& map, KeyFrameId centre, const Cleanu
 //
 // Returns the change of the map. Cost: one residual for each observation, and a small adjustment
 // for each landmark that has an outlier.
-MapEdit RemoveOutliers(const Map& map, const CameraAndPyramid& imaging, const LineOptions& lines);
+MapEdit RemoveOutliers(const Map& map, const CameraAndPyramid& imaging, const LineSettings& lines);
 
 }  // namespace plumbline

@@ -26,7 +26,7 @@ class WindowBuilder {
  public:
   WindowBuilder(const Map& map,
                 const CameraAndPyramid& imaging,
-                const LineOptions& lines,
+                const LineSettings& lines,
                 const LocalBaWindowOptions& options,
                 KeyFrameId centre)
       : map_(map),
@@ -174,7 +174,7 @@ class WindowBuilder {
   }
 
   const Map& map_;
-  LineOptions line_options_;
+  LineSettings line_options_;
   const LocalBaWindowOptions& options_;
   KeyFrameId centre_;
   LocalBaWindow window_;
@@ -192,7 +192,7 @@ class WindowBuilder {
 LocalBaWindow MakeLocalBaWindow(const Map& map,
                                 const CameraAndPyramid& imaging,
                                 KeyFrameId centre,
-                                const LineOptions& lines,
+                                const LineSettings& lines,
                                 const LocalBaWindowOptions& options) {
   return WindowBuilder(map, imaging, lines, options, centre).Build();
 }

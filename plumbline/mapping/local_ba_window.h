@@ -5,7 +5,7 @@
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/map_problem.h"
 #include "plumbline/mapping/options.h"
-#include "plumbline/matching/line_options.h"
+#include "plumbline/matching/line_method.h"
 #include "plumbline/matching/projection_search.h"
 
 #include <vector>
@@ -25,7 +25,7 @@ struct LocalBaWindow : MapProblem {
 LocalBaWindow MakeLocalBaWindow(const Map& map,
                                 const CameraAndPyramid& imaging,
                                 KeyFrameId centre,
-                                const LineOptions& lines,
+                                const LineSettings& lines,
                                 const LocalBaWindowOptions& options);
 
 // Returns the result as changes of the map: poses, landmarks (lines with new intervals and

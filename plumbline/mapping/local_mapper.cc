@@ -83,7 +83,7 @@ void RefreshChanged(const std::vector<ShownLandmark<LandmarkId>>& before,
 }  // namespace
 
 LocalMapper::LocalMapper(const CameraAndPyramid& imaging,
-                         const LineOptions& lines,
+                         const LineSettings& lines,
                          const MappingOptions& options)
     : imaging_(imaging),
       lines_(lines),

@@ -12,7 +12,7 @@
 #include "plumbline/mapping/options.h"
 #include "plumbline/mapping/point_alignment.h"
 #include "plumbline/mapping/stereo_calibration.h"
-#include "plumbline/matching/line_options.h"
+#include "plumbline/matching/line_method.h"
 #include "plumbline/matching/projection_search.h"
 
 #include <cstddef>
@@ -45,7 +45,7 @@ struct ShownLandmark {
 class LocalMapper {
  public:
   LocalMapper(const CameraAndPyramid& imaging,
-              const LineOptions& lines,
+              const LineSettings& lines,
               const MappingOptions& options);
 
   // Sets the options for all later steps.
@@ -113,7 +113,7 @@ class LocalMapper {
   void CalibrateStereo(Map& map, KeyFrameId id);
 
   CameraAndPyramid imaging_;
-  LineOptions lines_;
+  LineSettings lines_;
   MappingOptions options_;
   std::map<MapId, LandmarkIds> young_;
   PointAligner point_aligner_;

@@ -35,7 +35,7 @@ struct FreeLines {
 MapEdit CreateLinesFromViews(const Map& map,
                              const CameraAndPyramid& imaging,
                              KeyFrameId id,
-                             const LineOptions& lines) {
+                             const LineSettings& lines) {
   const Frame& frame = map.Find(id)->frame;
   const FreeLines mine(frame);
   // Views of each track, by feature of this keyframe.

@@ -143,7 +143,7 @@ MapCorrection AdjustPointsToLens(const Map& map,
 
 MapCorrection AdjustWholeMap(const Map& map,
                              const CameraAndPyramid& imaging,
-                             const LineOptions& lines,
+                             const LineSettings& lines,
                              const MappingOptions& options,
                              const StopCheck& stop) {
   constexpr std::size_t kMinKeyFrames = 3;

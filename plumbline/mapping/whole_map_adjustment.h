@@ -6,7 +6,7 @@
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/map_correction.h"
 #include "plumbline/mapping/options.h"
-#include "plumbline/matching/line_options.h"
+#include "plumbline/matching/line_method.h"
 #include "plumbline/matching/projection_search.h"
 
 namespace plumbline {
@@ -36,7 +36,7 @@ namespace plumbline {
 // whole map, with the time of SchurSolver::Solve.
 MapCorrection AdjustWholeMap(const Map& map,
                              const CameraAndPyramid& imaging,
-                             const LineOptions& lines,
+                             const LineSettings& lines,
                              const MappingOptions& options,
                              const StopCheck& stop = {});
 

@@ -4,59 +4,16 @@
 
 #include "plumbline/map/landmarks.h"
 #include "plumbline/matching/line_from_views.h"
+#include "plumbline/matching/line_options.h"
 #include "plumbline/matching/measurements.h"
 #include "plumbline/optimization/bundle_adjustment.h"
 #include "plumbline/optimization/pose_optimization.h"
 #include "plumbline/optimization/problem.h"
 
-#include <array>
 #include <optional>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace plumbline {
-
-// Parametrization of a line in bundle adjustment.
-enum class LineParametrization {
-  kPlucker,  // orthonormal form of the Plücker coordinates, 4 parameters
-  // Orthonormal form turned about the axes of the frame: U <- Exp(theta) U, as PPL-SLAM does.
-  kPluckerLeft,
-  // Two points, 6 parameters. Those along the line are free: no image determines them.
-  kEndpoints,
-};
-
-constexpr auto EnumNames(std::type_identity<LineParametrization>) {
-  return std::array{std::pair{LineParametrization::kPlucker, "plucker"},
-                    std::pair{LineParametrization::kPluckerLeft, "plucker_left"},
-                    std::pair{LineParametrization::kEndpoints, "endpoints"}};
-}
-
-// The two residuals of a line in an image, in pixels.
-enum class LineResidualKind {
-  // Distances of the measured ends from the projected infinite line (first paper, eq. 13).
-  kObservedEnds,
-  // Distances of the projected ends from the measured infinite line (second paper, eq. 1).
-  kProjectedEnds,
-};
-
-constexpr auto EnumNames(std::type_identity<LineResidualKind>) {
-  return std::array{std::pair{LineResidualKind::kObservedEnds, "observed_ends"},
-                    std::pair{LineResidualKind::kProjectedEnds, "projected_ends"}};
-}
-
-// Views used to triangulate a line of several keyframes.
-enum class LineReconstruction {
-  kNView,
-  kCheckedNView,  // with the tests of the first paper (CheckedLineFromViews)
-  kTwoView,
-};
-
-constexpr auto EnumNames(std::type_identity<LineReconstruction>) {
-  return std::array{std::pair{LineReconstruction::kNView, "n_view"},
-                    std::pair{LineReconstruction::kCheckedNView, "n_view_checked"},
-                    std::pair{LineReconstruction::kTwoView, "two_view"}};
-}
 
 // Adds the uncertainty of a match's line to the covariance of the match (AddLandmarkUncertainty).
 void WeighLineMatch(const PoseProblem& problem,
@@ -74,18 +31,16 @@ void MeasurePiece(const RectifiedCamera& camera,
                   const Segment3& piece,
                   PoseProblem::LineMatch& match);
 
-// Functions for creating, adjusting and projecting lines, by SlamOptions::lines.method. Each member
-// defaults to the product's function. Only the laboratory sets others (lab/line_rivals); the rest
-// of the product knows no other kind of line. The functions have no state and are called in any
-// thread.
+// Functions for creating, adjusting and projecting lines. Each member defaults to the product's
+// function for lines.residual=observed_ends and lines.reconstruction=n_view; others come by way of
+// SystemMethods. The functions have no state and are called in any thread.
 struct LineMethod {
-  // Values of the options of these names to which this method belongs (CheckOptions).
-  LineParametrization parametrization = LineParametrization::kPlucker;
-  LineResidualKind residual = LineResidualKind::kObservedEnds;
-  LineReconstruction reconstruction = LineReconstruction::kNView;
   // True if the ends of a line are its parameters: adjustments get them (BaProblem::line_ends) and
   // move them, and nothing cuts them to what a view shows.
   bool keeps_ends = false;
+  // True if poses have another residual than adjustments, which is for odometry against the last
+  // frame alone (TrackingReference::kLastFrame; CheckOptions).
+  bool only_odometry = false;
 
   // Makes a line from all keyframes that seem to show it, two or more. If more than two give no
   // line, it is called with pairs of them.
@@ -120,6 +75,11 @@ struct LineMethod {
   void (*measure_piece)(const RectifiedCamera& camera,
                         const Segment3& piece,
                         PoseProblem::LineMatch& match) = MeasurePiece;
+};
+
+// The options of lines and the functions that carry them out.
+struct LineSettings : LineOptions {
+  LineMethod method = {};
 };
 
 }  // namespace plumbline

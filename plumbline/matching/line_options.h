@@ -3,46 +3,40 @@
 #pragma once
 
 #include "plumbline/base/options.h"
-#include "plumbline/matching/line_method.h"
 #include "plumbline/matching/measurements.h"
+
+#include <string>
+#include <type_traits>
+#include <vector>
 
 namespace plumbline {
 
 // Settings of the triangulation of lines and of their weights in all optimization.
 struct LineOptions {
-  LineParametrization parametrization = LineParametrization::kPlucker;
-  LineResidualKind residual = LineResidualKind::kObservedEnds;
-  LineReconstruction reconstruction = LineReconstruction::kNView;
+  std::string residual = "observed_ends";
+  std::string reconstruction = "n_view";
   LineWeighting weighting = LineWeighting::kCovariance;
   double constant_sigma_px = 1;
   double min_length_ratio = 0.3;
   bool rotation_gate = false;
-  // Functions behind the options; not an option itself. They must fit parametrization, residual and
-  // reconstruction (CheckOptions).
-  LineMethod method = {};
 
   LineWeights weights() const { return {weighting, constant_sigma_px}; }
 };
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, LineOptions& o) {
-  visit("parametrization",
-        o.parametrization,
-        "of a line in bundle adjustment: plucker (orthonormal form, 4 parameters); to compare "
-        "with, in "
-        "builds with the laboratory: plucker_left (the same, turned about the axes of the frame), "
-        "endpoints (two points, 6, which are the ends of the line from its creation on)");
   visit("residual",
         o.residual,
         "observed_ends: distances of the measured end points from the projected line; "
         "projected_ends: of the projected end points from the measured line (with "
-        "tracking.reference last_frame; with a map in builds with the laboratory)");
-  visit(
-      "reconstruction",
-      o.reconstruction,
-      "of a line from several keyframes: n_view (all closest ones together, pairs where they "
-      "disagree), n_view_checked (with the first paper's tests of reprojection and of the ends of "
-      "pairs), two_view (the closest pair that agrees; in builds with the laboratory)");
+        "tracking.reference last_frame)",
+        Methods{{"observed_ends", "projected_ends"}});
+  visit("reconstruction",
+        o.reconstruction,
+        "of a line from several keyframes: n_view (all closest ones together, pairs where they "
+        "disagree), n_view_checked (with the first paper's tests of reprojection and of the ends "
+        "of pairs)",
+        Methods{{"n_view", "n_view_checked"}});
   visit("weighting",
         o.weighting,
         "of the two residuals of a line: none (constant_sigma_px each), scalar (their mean "
@@ -61,6 +55,13 @@ void VisitFields(Visitor&& visit, LineOptions& o) {
         o.rotation_gate,
         "lines of two keyframes are matched only where their directions in the images differ by no "
         "more than the keyframes are turned against each other (as the first paper)");
+}
+
+inline std::vector<RemovedOption> RemovedOptions(std::type_identity<LineOptions> /*of*/) {
+  return {{"parametrization",
+           "it is fixed at plucker; other parameters are methods of lines.residual in builds with "
+           "the laboratory",
+           "plucker"}};
 }
 
 }  // namespace plumbline

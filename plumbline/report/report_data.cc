@@ -52,11 +52,9 @@ class Floats {
   std::string bytes_;
 };
 
-Json Options(const std::string& yaml) {
-  SlamOptions defaults, used;
-  const OptionTable default_table(defaults);
-  OptionTable used_table(used);
-  used_table.LoadText(yaml, "options");
+Json Options(SlamOptions used) {
+  SlamOptions defaults;
+  const OptionTable default_table(defaults), used_table(used);
   Json list = Json::array();
   for (const OptionField& field : used_table.fields()) {
     list.push_back({{"key", field.key},
@@ -81,7 +79,7 @@ std::string ShellWord(const std::string& word) {
   return quoted + "'";
 }
 
-Json Run(const Dataset& dataset, const ReportContext& context) {
+Json Run(const System& system, const Dataset& dataset, const ReportContext& context) {
   const RunDescription& description = context.description;
   std::string command = "plumbline run";
   for (const std::string& word : description.arguments) command += " " + ShellWord(word);
@@ -103,7 +101,7 @@ Json Run(const Dataset& dataset, const ReportContext& context) {
           {"cpu_seconds", Rounded(context.resources.cpu_seconds, 3)},
           {"peak_memory_mb", Rounded(context.resources.peak_memory_mb, 1)},
           {"preset", description.preset ? Json(*description.preset) : Json(nullptr)},
-          {"options", Options(description.options_yaml)}};
+          {"options", Options(system.options())}};
 }
 
 Json Counts(const RunCounts& c) {
@@ -383,7 +381,7 @@ std::string FormatReportData(const System& system,
   const ShownFrames shown(
       system.frames(), FramesSpokenOf(scene, context.samples), context.most_frames);
   Json json;
-  json["run"] = Run(dataset, context);
+  json["run"] = Run(system, dataset, context);
   json["counts"] = Counts(CountRun(system));
   json["shown_every"] = shown.step();
   json["frames"] = Frames(system.frames(), shown);

@@ -185,7 +185,8 @@ Expected<MergedMaps, MergeRefusal> MergeMaps(const Atlas& atlas,
                                              MapId first,
                                              MapId second,
                                              const CameraAndPyramid& imaging,
-                                             const SlamOptions& options) {
+                                             const SlamOptions& options,
+                                             const SystemMethods& methods) {
   PLUMBLINE_CHECK(atlas.Find(first) != nullptr && atlas.Find(second) != nullptr && first < second,
                   "maps to be merged, the older one first");
   const bool free_scale = imaging.camera.baseline == 0;
@@ -202,9 +203,12 @@ Expected<MergedMaps, MergeRefusal> MergeMaps(const Atlas& atlas,
   Map& map = merged.atlas.active();
   if (!Bend(*overlap, free_scale, options.loop, map)) return MergeRefusal::kContradicted;
   const std::vector<KeyFrameId> ids = KeyFramesOf(of_first);
-  LocalMapper mapper(imaging, options.lines, options.mapping);
-  merged.ties = TieAll(
-      {ids.begin(), ids.end()}, KeyFramesOf(of_second), options.loop.min_shared, mapper, map);
+  LocalMapper mapper(imaging, methods.Lines(options.lines), options.mapping);
+  merged.ties = TieAll({ids.begin(), ids.end()},
+                       KeyFramesOf(of_second),
+                       options.loop.min_shared,
+                       mapper,
+                       map);
   mapper.Finish(map);
   return merged;
 }

@@ -9,6 +9,7 @@
 #include "plumbline/map/atlas.h"
 #include "plumbline/matching/projection_search.h"
 #include "plumbline/slam/options.h"
+#include "plumbline/slam/system_methods.h"
 
 #include <array>
 #include <type_traits>
@@ -70,6 +71,7 @@ Expected<MergedMaps, MergeRefusal> MergeMaps(const Atlas& atlas,
                                              MapId first,
                                              MapId second,
                                              const CameraAndPyramid& imaging,
-                                             const SlamOptions& options);
+                                             const SlamOptions& options,
+                                             const SystemMethods& methods = {});
 
 }  // namespace plumbline

@@ -23,9 +23,9 @@ bool MayCalibrateRadialDistortion(const Map& map) {
 }
 
 BackgroundAdjustment::Compute WholeMapAdjustment(const CameraAndPyramid& imaging,
-                                                 const SlamOptions& options) {
-  return [imaging, lines = options.lines, mapping = options.mapping](const Map& map,
-                                                                     const StopCheck& stop) {
+                                                 const LineSettings& lines,
+                                                 const MappingOptions& mapping) {
+  return [imaging, lines, mapping](const Map& map, const StopCheck& stop) {
     MappingOptions adjusted = mapping;
     adjusted.lens_calibration = mapping.lens_calibration && MayCalibrateRadialDistortion(map);
     return AdjustWholeMap(map, imaging, lines, adjusted, stop);
@@ -50,17 +50,17 @@ BackgroundAdjustment::Worker AdjustmentWorker(RunMode mode, const Execution& exe
 
 Mapper::Mapper(const CameraAndPyramid& imaging,
                const SlamOptions& options,
-               const Execution& execution)
+               const Execution& execution,
+               const SystemMethods& methods)
     : mode_(options.slam.mode),
       corrects_when_ready_(mode_ == RunMode::kLive && execution.threads),
       camera_(imaging.camera),
       options_(options.mapping),
-      local_(imaging, options.lines, options.mapping),
-      relocalizer_(
-          imaging, options.tracking, PoseEstimator(imaging.camera, options.lines, options.cutting)),
+      local_(imaging, methods.Lines(options.lines), options.mapping),
+      relocalizer_(imaging, options.tracking, methods.MakePoseEstimator(imaging.camera, options)),
       places_(imaging, options.loop),
       adjustment_(AdjustmentWorker(mode_, execution)),
-      adjust_map_(WholeMapAdjustment(imaging, options)),
+      adjust_map_(WholeMapAdjustment(imaging, methods.Lines(options.lines), options.mapping)),
       adjust_to_lens_(LensAdjustment(imaging, options)) {}
 
 void Mapper::Continue(Atlas atlas, const LocalMapper::State& state) {

@@ -12,6 +12,7 @@
 #include "plumbline/slam/load_control.h"
 #include "plumbline/slam/options.h"
 #include "plumbline/slam/place_recognition.h"
+#include "plumbline/slam/system_methods.h"
 #include "plumbline/tracking/relocalization.h"
 #include "plumbline/tracking/tracker.h"
 
@@ -90,7 +91,10 @@ struct MapUpdate {
 // later snapshots are marked so.
 class Mapper {
  public:
-  Mapper(const CameraAndPyramid& imaging, const SlamOptions& options, const Execution& execution);
+  Mapper(const CameraAndPyramid& imaging,
+         const SlamOptions& options,
+         const Execution& execution,
+         const SystemMethods& methods = {});
   Mapper(const Mapper&) = delete;
   Mapper& operator=(const Mapper&) = delete;
 

@@ -13,12 +13,13 @@ namespace plumbline {
 
 MapperThread::MapperThread(const CameraAndPyramid& imaging,
                            const SlamOptions& options,
-                           const Execution& execution)
+                           const Execution& execution,
+                           const SystemMethods& methods)
     : mode_(options.slam.mode),
       camera_(imaging.camera),
       creation_(options.mapping.creation),
       schedule_(mode_, options.slam.lag),
-      mapper_(imaging, options, execution) {
+      mapper_(imaging, options, execution, methods) {
   if (mode_ != RunMode::kInline && execution.threads) {
     worker_ = std::jthread([this] { WorkUntilStopped(); });
   }

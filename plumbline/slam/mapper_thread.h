@@ -46,7 +46,8 @@ class MapperThread {
 
   MapperThread(const CameraAndPyramid& imaging,
                const SlamOptions& options,
-               const Execution& execution = {});
+               const Execution& execution = {},
+               const SystemMethods& methods = {});
   // Drops all tasks that have not begun.
   ~MapperThread();
   MapperThread(const MapperThread&) = delete;

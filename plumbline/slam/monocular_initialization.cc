@@ -77,11 +77,12 @@ class NearestKeyFrame {
 
 MonocularInitialization::MonocularInitialization(const CameraAndPyramid& imaging,
                                                  const SlamOptions& options,
+                                                 const SystemMethods& methods,
                                                  HelperThread* helper)
     : imaging_(imaging),
       max_pose_sigma_(options.tracking.max_pose_sigma),
-      estimator_(imaging.camera, options.lines, options.cutting),
-      initializer_(MakeInitializer(
+      estimator_(methods.MakePoseEstimator(imaging.camera, options)),
+      initializer_(methods.make_initializer(
           imaging, options.initialization, static_cast<std::uint64_t>(options.slam.seed), helper)) {
 }
 

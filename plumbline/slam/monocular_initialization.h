@@ -8,6 +8,7 @@
 #include "plumbline/slam/front_end.h"
 #include "plumbline/slam/initial_map_edit.h"
 #include "plumbline/slam/options.h"
+#include "plumbline/slam/system_methods.h"
 #include "plumbline/tracking/pose_search.h"
 #include "plumbline/tracking/tracker.h"
 
@@ -45,6 +46,7 @@ class MonocularInitialization {
   // The helper shares the initializer's work, and must outlive this object.
   MonocularInitialization(const CameraAndPyramid& imaging,
                           const SlamOptions& options,
+                          const SystemMethods& methods = {},
                           HelperThread* helper = nullptr);
 
   InitializationResult Offer(FrameId id, const ExtractedFrame& frame);

@@ -60,10 +60,9 @@ struct SlamOptions {
   ExecutionOptions slam;
 };
 
-// Throws InputError for a value out of its range, and if options contradict each other: neither
-// points nor lines, a minimum not below its maximum (depths, frames between keyframes), or a kind
-// of line that this build does not have (docs/adr/0031-one-method-of-lines.md). Projected ends are
-// available for odometry in every build.
+// Throws InputError for a value out of its range, a method that does not exist, and if options
+// contradict each other: neither points nor lines, a minimum not below its maximum (depths, frames
+// between keyframes), or a residual of lines that only poses have, with a map.
 void CheckOptions(const SlamOptions& options);
 
 template <class Visitor>

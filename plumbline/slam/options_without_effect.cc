@@ -25,13 +25,11 @@ struct Dependence {
   bool (*has_effect)(const SlamOptions&);
 };
 
-bool IsMethod(const SlamOptions& o, std::initializer_list<InitializationMethod> methods) {
+bool StartsBy(const SlamOptions& o, std::initializer_list<std::string_view> methods) {
   return std::find(methods.begin(), methods.end(), o.initialization.method) != methods.end();
 }
 
-bool CutsOrChooses(const SlamOptions& o) {
-  return o.cutting.method != CuttingMethod::kNone || o.cutting.budget > 0;
-}
+bool Cuts(const SlamOptions& o) { return o.cutting.method != "none"; }
 
 std::vector<Dependence> OfFeatures() {
   const OptionKeys of_lines = {"features.line_detector",
@@ -42,7 +40,6 @@ std::vector<Dependence> OfFeatures() {
                                "cutting.information",
                                "cutting.ends",
                                "cutting.end_sigma",
-                               "cutting.drop_share",
                                "mapping.window.parallel_lines",
                                "mapping.line_map."};
   const OptionKeys of_points = {"features.orb.fast_min_threshold",
@@ -63,41 +60,27 @@ std::vector<Dependence> OfFeatures() {
 }
 
 std::vector<Dependence> OfCutting() {
-  return {{{"cutting.drop_share"},
-           "cutting.method",
-           [](const auto& o) { return o.cutting.method == CuttingMethod::kDrop; }},
-          {{"cutting.information"},
-           "cutting.method",
-           [](const auto& o) {
-             return o.cutting.budget > 0 ||
-                    (CutsOrChooses(o) && o.cutting.method != CuttingMethod::kDrop);
-           }},
-          {{"cutting.ends", "cutting.end_sigma"}, "cutting.method", CutsOrChooses},
+  return {{{"cutting.information", "cutting.ends", "cutting.end_sigma"}, "cutting.method", Cuts},
           {{"cutting.end_sigma"}, "cutting.ends", [](const auto& o) {
              return o.cutting.ends == CuttingEnds::kInverseDepth;
            }}};
 }
 
 std::vector<Dependence> OfInitialization() {
-  using enum InitializationMethod;
   const auto by_method = [](OptionKeys keys, bool (*has_effect)(const SlamOptions&)) {
     return Dependence{std::move(keys), "initialization.method", has_effect};
   };
   return {
       by_method({"initialization.pairwise."},
-                [](const auto& o) { return IsMethod(o, {kRank1Pairwise}); }),
+                [](const auto& o) { return StartsBy(o, {"rank1_pairwise"}); }),
       by_method(
           {"initialization.relative_pose", "initialization.interpolate", "initialization.matching"},
-          [](const auto& o) { return IsMethod(o, {kRank1}); }),
+          [](const auto& o) { return StartsBy(o, {"rank1"}); }),
       by_method({"initialization.factorize",
                  "initialization.reweighting",
                  "initialization.min_line_angle_deg"},
                 [](const auto& o) {
-                  return IsMethod(o, {kRank1, kRank1Pairwise});
-                }),
-      by_method({"initialization.frames"},
-                [](const auto& o) {
-                  return IsMethod(o, {kRank1, kRank1Pairwise, kRank1Klt});
+                  return StartsBy(o, {"rank1", "rank1_pairwise"});
                 }),
       {{"initialization.interpolate",
         "initialization.reweighting",
@@ -107,17 +90,18 @@ std::vector<Dependence> OfInitialization() {
        [](const auto& o) { return o.initialization.factorize; }},
       {{"initialization.min_line_angle_deg"},
        "initialization.interpolate",
-       [](const auto& o) { return IsMethod(o, {kRank1Pairwise}) || o.initialization.interpolate; }},
+       [](const auto& o) {
+         return StartsBy(o, {"rank1_pairwise"}) || o.initialization.interpolate;
+       }},
       {{"initialization.min_line_angle_deg"}, "initialization.pairwise.missing", [](const auto& o) {
-         return IsMethod(o, {kRank1}) ||
+         return StartsBy(o, {"rank1"}) ||
                 o.initialization.pairwise.missing == MissingPlaces::kInterpolate;
        }}};
 }
 
 std::vector<Dependence> OfRunning() {
   return {// Odometry has no keyframe but the first.
-          {{"lines.parametrization",
-            "lines.reconstruction",
+          {{"lines.reconstruction",
             "tracking.keyframes.",
             "mapping.window.",
             "mapping.ba.",

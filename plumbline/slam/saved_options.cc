@@ -28,10 +28,11 @@ bool IsOfFrontEnd(std::string_view key) { return key.starts_with("features."); }
 
 SlamOptions SavedOptions(const AtlasContext& context,
                          const std::string& source,
-                         const std::function<void(const RemovedSetting&)>& on_removed) {
+                         const std::function<void(const RemovedSetting&)>& on_removed,
+                         const std::vector<AddedMethod>& added) {
   SlamOptions options;
   if (!context.options_yaml.empty()) {
-    OptionTable(options).LoadText(context.options_yaml, source, on_removed);
+    OptionTable(options, added).LoadText(context.options_yaml, source, on_removed);
   }
   return options;
 }
@@ -40,10 +41,11 @@ SlamOptions SavedOptionsOrDefault(const AtlasContext& context,
                                   const std::string& source,
                                   const std::string& instead,
                                   const std::function<void(const std::string&)>& remark,
-                                  const std::function<void(SlamOptions&)>& accept) {
+                                  const std::function<void(SlamOptions&)>& accept,
+                                  const std::vector<AddedMethod>& added) {
   try {
     SlamOptions options = SavedOptions(
-        context, source, [&](const RemovedSetting& removed) { remark(removed.message); });
+        context, source, [&](const RemovedSetting& removed) { remark(removed.message); }, added);
     if (accept) accept(options);
     return options;
   } catch (const InputError& error) {

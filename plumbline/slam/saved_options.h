@@ -14,11 +14,13 @@ namespace plumbline {
 
 // Returns the options that determined the results of saved maps; the default options if the file
 // has none. Options of earlier versions that were removed are passed over; those at other values
-// than their constants are reported to `on_removed`. Throws InputError, which names `source`, if no
-// version of the program until this one knows an option or a value.
+// than their constants are reported to `on_removed`, and so are methods that are neither the
+// product's nor among `added`. Throws InputError, which names `source`, if no version of the
+// program until this one knows an option or a value.
 SlamOptions SavedOptions(const AtlasContext& context,
                          const std::string& source,
-                         const std::function<void(const RemovedSetting&)>& on_removed);
+                         const std::function<void(const RemovedSetting&)>& on_removed,
+                         const std::vector<AddedMethod>& added = {});
 
 // Returns SavedOptions, after `accept` (if given) has accepted them, and reports to `remark` the
 // removed options that had another value. If one of the two throws
@@ -28,7 +30,8 @@ SlamOptions SavedOptionsOrDefault(const AtlasContext& context,
                                   const std::string& source,
                                   const std::string& instead,
                                   const std::function<void(const std::string&)>& remark,
-                                  const std::function<void(SlamOptions&)>& accept = {});
+                                  const std::function<void(SlamOptions&)>& accept = {},
+                                  const std::vector<AddedMethod>& added = {});
 
 // Returns the differences in feature extraction between saved maps and others or a run, one line
 // each: "features.line_count: 200 in the map, 100 now". Empty if there are none, or if nothing is

@@ -8,8 +8,8 @@
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/slam/atlas_context.h"
 #include "plumbline/slam/saved_options.h"
+#include "plumbline/slam/system_methods.h"
 #include "plumbline/slam/system_stages.h"
-#include "plumbline/tracking/projected_matches.h"
 
 #include <exception>
 #include <map>
@@ -31,30 +31,26 @@ Vector6d LastVelocity(const InitialMap& initial) {
   return LogSe3(last.cam_from_world * Inverse(before.cam_from_world)) / seconds;
 }
 
-// Sets the product's line method, unless the caller has set one.
-SlamOptions WithLineMethod(SlamOptions options) {
-  const LineMethod& method = options.lines.method;
-  const bool is_default = method.residual == LineResidualKind::kObservedEnds &&
-                          method.reconstruction == LineReconstruction::kNView &&
-                          method.parametrization == LineParametrization::kPlucker;
-  if (is_default) options.lines.method = ProductLineMethod(options.lines);
-  return options;
-}
-
 }  // namespace
 
 System::System(const Calibration& calibration,
                const SlamOptions& options,
                const Execution& execution)
-    : options_(WithLineMethod(options)),
+    : System(calibration, options, execution, {}) {}
+
+System::System(const Calibration& calibration,
+               const SlamOptions& options,
+               const Execution& execution,
+               const SystemMethods& methods)
+    : options_(options),
       execution_(execution),
-      stages_(std::make_unique<SystemStages>(calibration, options_, execution_)),
+      stages_(std::make_unique<SystemStages>(calibration, options_, execution_, methods)),
       front_end_(stages_->front_end),
       imaging_(stages_->imaging),
       mapping_(stages_->mapping),
       tracker_(stages_->tracker),
       monocular_initialization_(stages_->monocular_initialization) {
-  CheckOptions(options_);
+  CheckOptions(options_, methods);
   if (imaging_.camera.baseline == 0) {
     if (options_.tracking.reference == TrackingReference::kLastFrame) {
       throw InputError(
@@ -62,7 +58,7 @@ System::System(const Calibration& calibration,
           "with one camera only local_map works");
     }
     monocular_initialization_ =
-        std::make_unique<MonocularInitialization>(imaging_, options_, front_end_.helper());
+        std::make_unique<MonocularInitialization>(imaging_, options_, methods, front_end_.helper());
   }
 }
 

@@ -34,6 +34,7 @@ struct InitialMap;
 struct InitializationCounts;
 struct LoopAttempt;
 struct MapSnapshot;
+struct SystemMethods;
 struct SystemStages;
 struct TrackingResult;
 struct UnfinishedFrame;
@@ -69,6 +70,12 @@ class System {
   System(const Calibration& calibration,
          const SlamOptions& options,
          const Execution& execution = {});
+  // Makes a system that has other methods than the product's alone (slam/system_methods.h), which
+  // options may name.
+  System(const Calibration& calibration,
+         const SlamOptions& options,
+         const Execution& execution,
+         const SystemMethods& methods);
   ~System();
   System(const System&) = delete;
   System& operator=(const System&) = delete;

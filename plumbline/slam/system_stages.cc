@@ -22,13 +22,14 @@ Rigid3 WorldFromFirstCamera(const Rectifier& rectifier) {
 
 SystemStages::SystemStages(const Calibration& calibration,
                            const SlamOptions& options,
-                           const Execution& execution)
+                           const Execution& execution,
+                           const SystemMethods& methods)
     : front_end(calibration, options.features),
       imaging{front_end.rectifier().camera(), options.features.orb.scale_factor},
-      mapping(imaging, options, execution),
+      mapping(imaging, options, execution, methods),
       tracker(imaging,
               options.tracking,
-              PoseEstimator(imaging.camera, options.lines, options.cutting),
+              methods.MakePoseEstimator(imaging.camera, options),
               WorldFromFirstCamera(front_end.rectifier()),
               PatienceOf(options)) {}
 

@@ -24,7 +24,8 @@ struct SystemStages {
   // Throws InputError like System.
   SystemStages(const Calibration& calibration,
                const SlamOptions& options,
-               const Execution& execution);
+               const Execution& execution,
+               const SystemMethods& methods);
 
   FrontEnd front_end;
   CameraAndPyramid imaging;

@@ -8,7 +8,7 @@
 namespace plumbline {
 namespace {
 
-constexpr std::array<std::string_view, 27> kUserOptions = {"slam.mode",
+constexpr std::array<std::string_view, 26> kUserOptions = {"slam.mode",
                                                            "slam.seed",
                                                            "slam.lag",
                                                            "features.points",
@@ -20,7 +20,6 @@ constexpr std::array<std::string_view, 27> kUserOptions = {"slam.mode",
                                                            "features.line.min_length",
                                                            "features.depth.min_depth_m",
                                                            "features.depth.max_depth_m",
-                                                           "cutting.budget",
                                                            "initialization.frames",
                                                            "tracking.new_map_after",
                                                            "tracking.keyframes.min_frames",
@@ -36,10 +35,9 @@ constexpr std::array<std::string_view, 27> kUserOptions = {"slam.mode",
                                                            "mapping.line_map.min_mean_length_px",
                                                            "loop.enabled"};
 
-constexpr std::array<std::string_view, 27> kPaperOptions = {
+constexpr std::array<std::string_view, 25> kPaperOptions = {
     "features.line.merge",
     "features.line.refine",
-    "lines.parametrization",
     "lines.residual",
     "lines.reconstruction",
     "lines.weighting",
@@ -50,7 +48,6 @@ constexpr std::array<std::string_view, 27> kPaperOptions = {
     "cutting.information",
     "cutting.ends",
     "cutting.end_sigma",
-    "cutting.drop_share",
     "initialization.method",
     "initialization.relative_pose",
     "initialization.factorize",

@@ -3,7 +3,6 @@
 #include "plumbline/tracking/line_cutting.h"
 
 #include "plumbline/base/chi2.h"
-#include "plumbline/line_cutting/choose_features.h"
 #include "plumbline/line_cutting/cut_lines.h"
 #include "plumbline/matching/line_information.h"
 #include "plumbline/matching/uncertain_line.h"
@@ -133,7 +132,7 @@ Eigen::Matrix2d PieceCovariance(const RectifiedCamera& camera,
 void UsePiece(const RectifiedCamera& camera,
               const Cuttable& cuttable,
               const LineCut& cut,
-              const LineOptions& lines,
+              const LineSettings& lines,
               const CuttingOptions& cutting,
               double sigma_px,
               PoseProblem::LineMatch& match) {
@@ -172,8 +171,8 @@ EndCovariances CovariancesOfEnds(const Rigid3& cam_from_world,
 
 PoseProblem WithCutLines(const PoseProblem& problem,
                          const std::vector<CutCandidate>& candidates,
-                         const LineOptions& lines,
-                         const CuttingOptions& cutting) {
+                         const LineSettings& lines,
+                         const CuttingSettings& cutting) {
   CuttingProblem to_cut{problem.camera, {}, Matrix6d::Zero()};
   std::vector<Cuttable> cuttable;
   std::map<int, std::size_t> place;  // place of a group in `cuttable`
@@ -184,10 +183,7 @@ PoseProblem WithCutLines(const PoseProblem& problem,
     cuttable.push_back(*made);
     to_cut.lines.push_back(made->line);
   }
-  const std::size_t offered = problem.points.size() + cuttable.size();
-  const std::size_t budget =
-      cutting.budget > 0 ? static_cast<std::size_t>(cutting.budget) : offered;
-  const ChosenFeatures choice = ChooseFeatures(to_cut, RowsOfPoints(problem), budget, cutting);
+  const ChosenFeatures choice = cutting.choose(to_cut, RowsOfPoints(problem), cutting);
   PoseProblem out = problem;
   out.points.clear();
   for (std::size_t i = 0; i < problem.points.size(); ++i) {
@@ -197,13 +193,13 @@ PoseProblem WithCutLines(const PoseProblem& problem,
   for (std::size_t i = 0; i < problem.lines.size(); ++i) {
     PoseProblem::LineMatch match = problem.lines[i];
     const auto at = place.find(match.group);
-    if (at == place.end()) {  // the line stays whole, unless features are to be left out
-      if (budget >= offered) out.lines.push_back(match);
+    if (at == place.end()) {  // could not be offered
+      if (choice.others) out.lines.push_back(match);
       continue;
     }
     const LineCut& cut = choice.lines[at->second];
     if (!cut.used) continue;
-    if (cut != LineCut{} || cutting.method == CuttingMethod::kTrim) {
+    if (cut != LineCut{} || choice.trim) {
       const Cuttable& whole = cuttable[at->second];
       UsePiece(problem.camera, whole, cut, lines, cutting, candidates[i].sigma_px, match);
     }

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "plumbline/geometry/trimming.h"
-#include "plumbline/line_cutting/cutting_problem.h"
+#include "plumbline/line_cutting/cut_lines.h"
 #include "plumbline/map/landmarks.h"
-#include "plumbline/matching/line_options.h"
+#include "plumbline/matching/line_method.h"
 #include "plumbline/optimization/problem.h"
 
 #include <cstddef>
@@ -50,7 +50,7 @@ struct CutCandidate {
 };
 
 // A pose problem whose lines are cut (second paper, section 4; cut_lines.h), ready for SolvePose.
-// With a budget it has only the selected points (choose_features.h).
+// It has the points that cutting.choose selects: by the product all of them.
 //
 // The cut applies to the part of the landmark that the measured segment of the left image covers at
 // the problem's pose (first paper, eq. 26-30). The end covariances come from the landmark's
@@ -62,20 +62,19 @@ struct CutCandidate {
 // part of the objective (eq. 7), wrong matches included. The right image has no part in the choice.
 //
 // The pieces are used in both images: they become the ends of a match, and the ends of its measured
-// segment move to the projections of the piece, not beyond them (lines.method.measure_piece).
+// segment move to the projections of the piece, not beyond them (LineMethod::measure_piece).
 // Weights of the pieces are those of the cut points by lines.weighting: none 1 px, scalar the mean
 // variance, covariance one each (2 x 2 for correlated information). Lines left whole keep their
 // measurement: those shorter than 5 px, without a visible part, or whose best piece is the whole
-// line; with trim the latter are trimmed to the visible part. Lines that drop leaves out are not in
-// the result.
+// line, unless cutting.choose asks to trim them.
 //
 //   problem     initial pose, points, lines
 //   candidates  one for each entry of problem.lines
-//   cost        CutLines or ChooseFeatures, and some microseconds a line
+//   cost        that of cutting.choose, and some microseconds a line
 PoseProblem WithCutLines(const PoseProblem& problem,
                          const std::vector<CutCandidate>& candidates,
-                         const LineOptions& lines,
-                         const CuttingOptions& cutting);
+                         const LineSettings& lines,
+                         const CuttingSettings& cutting);
 
 // Classifies the points and the whole lines of a problem as inliers of a pose. The limit is chi2 at
 // 95 % times gate_scale; for lines it applies to all measurements of a group together. Whole lines

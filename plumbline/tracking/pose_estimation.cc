@@ -37,7 +37,7 @@ void AddPoints(const Features& features, const LandmarkMatches& association, Mat
 void AddLine(const CutCandidate& candidate,
              const LineMeasurement& measurement,
              std::size_t feature,
-             const LineOptions& options,
+             const LineSettings& options,
              MatchedProblem& out) {
   const LineModel& line = *candidate.model;
   PoseProblem::LineMatch match{line.line, measurement, static_cast<int>(feature)};
@@ -48,7 +48,7 @@ void AddLine(const CutCandidate& candidate,
 }
 
 void AddLines(const Features& features,
-              const LineOptions& lines,
+              const LineSettings& lines,
               const LandmarkMatches& association,
               MatchedProblem& out) {
   for (std::size_t i = 0; i < association.matches.line_of_feature.size(); ++i) {
@@ -68,7 +68,7 @@ void AddLines(const Features& features,
 MatchedProblem MakeProblem(const RectifiedCamera& camera,
                            const Features& features,
                            const Rigid3& cam_from_world,
-                           const LineOptions& lines,
+                           const LineSettings& lines,
                            const LandmarkMatches& association) {
   MatchedProblem matched;
   matched.problem.camera = camera;
@@ -108,8 +108,8 @@ int CountPieces(const PoseProblem& whole, const PoseProblem& cut) {
 // solution.
 //   cut_lines  set to the number of matches of which a piece took part
 PoseOnlyResult SolveWithCutLines(const MatchedProblem& matched,
-                                 const LineOptions& lines,
-                                 const CuttingOptions& cutting,
+                                 const LineSettings& lines,
+                                 const CuttingSettings& cutting,
                                  int& cut_lines) {
   const PoseProblem cut = WithCutLines(matched.problem, matched.cut_candidates, lines, cutting);
   cut_lines = CountPieces(matched.problem, cut);
@@ -151,7 +151,7 @@ PoseEstimate PoseEstimator::Estimate(const Features& features,
                                      LandmarkMatches& association) const {
   MatchedProblem matched = MakeProblem(camera_, features, initial, lines_, association);
   matched.problem.prior = prior;
-  const bool all_whole = cutting_.method == CuttingMethod::kNone && cutting_.budget == 0;
+  const bool all_whole = cutting_.method == "none";
   int cut_lines = 0;
   const PoseOnlyResult result = all_whole ? lines_.method.solve_pose(matched.problem, {})
                                           : SolveWithCutLines(matched, lines_, cutting_, cut_lines);

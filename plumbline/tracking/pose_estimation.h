@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/line_cutting/cutting_problem.h"
+#include "plumbline/line_cutting/cut_lines.h"
 #include "plumbline/map/frame.h"
-#include "plumbline/matching/line_options.h"
+#include "plumbline/matching/line_method.h"
 #include "plumbline/optimization/pose_optimization.h"
 #include "plumbline/optimization/pose_uncertainty.h"
 #include "plumbline/tracking/landmark_matches.h"
@@ -38,8 +38,8 @@ struct PoseEstimate {
 class PoseEstimator {
  public:
   PoseEstimator(const RectifiedCamera& camera,
-                const LineOptions& lines,
-                const CuttingOptions& cutting)
+                const LineSettings& lines,
+                const CuttingSettings& cutting)
       : camera_(camera), lines_(lines), cutting_(cutting) {}
 
   // Returns the pose that best fits the matches and the prior, starting from `initial`. Outliers
@@ -57,12 +57,12 @@ class PoseEstimator {
                        double gate_scale,
                        LandmarkMatches& association) const;
 
-  const LineOptions& lines() const { return lines_; }
+  const LineSettings& lines() const { return lines_; }
 
  private:
   RectifiedCamera camera_;
-  LineOptions lines_;
-  CuttingOptions cutting_;
+  LineSettings lines_;
+  CuttingSettings cutting_;
 };
 
 }  // namespace plumbline

@@ -63,12 +63,9 @@ Segment3 VisibleEnds(const PoseProblem& problem, const LineModel& line) {
 
 LineMethod ProductLineMethod(const LineOptions& options) {
   LineMethod method;
-  if (options.reconstruction == LineReconstruction::kCheckedNView) {
-    method.reconstruction = LineReconstruction::kCheckedNView;
-    method.line_from_views = CheckedLineFromViews;
-  }
-  if (options.residual != LineResidualKind::kProjectedEnds) return method;
-  method.residual = LineResidualKind::kProjectedEnds;
+  if (options.reconstruction == "n_view_checked") method.line_from_views = CheckedLineFromViews;
+  if (options.residual != "projected_ends") return method;
+  method.only_odometry = true;
   method.weigh_match = WeighProjectedMatch;
   method.solve_pose = SolvePoseByProjectedEnds;
   method.match_chi2 = ProjectedMatchChi2;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/map/landmarks.h"
-#include "plumbline/matching/line_options.h"
+#include "plumbline/matching/line_method.h"
 #include "plumbline/matching/measurements.h"
 #include "plumbline/optimization/pose_optimization.h"
 #include "plumbline/optimization/problem.h"
@@ -12,13 +12,11 @@
 
 namespace plumbline {
 
-// Tracking by the residual LineResidualKind::kProjectedEnds (second paper, eq. 1): members of a
-// LineMethod.
+// Tracking by lines.residual=projected_ends (second paper, eq. 1): members of a LineMethod.
 
-// Returns the line method for these options: observed ends or, for poses, projected ends; lines
-// from several keyframes with or without the tests of the first paper. Bundle adjustment uses
-// observed ends, so that projected ends serve odometry against the last frame
-// (TrackingReference::kLastFrame), without adjustment (CheckOptions).
+// Returns the product's line method for these options: observed ends or, for poses, projected ends
+// (LineMethod::only_odometry, since bundle adjustment has observed ends); lines from several
+// keyframes with or without the tests of the first paper.
 LineMethod ProductLineMethod(const LineOptions& options);
 
 // A line and two points on it, in the world.

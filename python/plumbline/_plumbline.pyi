@@ -357,14 +357,14 @@ def follow_points(images: Sequence[_Gray], points: ArrayLike) -> _Doubles: ...
 
 class _Cuts(TypedDict):
     ratios: _Doubles
-    used: NDArray[np.bool_]
     log_det_whole: float
     log_det_cut: float
 
 
 def cut_lines(camera: RectifiedCamera, segments: ArrayLike, covariances: ArrayLike,
               measured: ArrayLike, sigma_px: ArrayLike = 1.0,
-              other_information: ArrayLike | None = None, **options: Any) -> _Cuts: ...
+              other_information: ArrayLike | None = None,
+              information: str = "independent") -> _Cuts: ...
 def pose_information(camera: RectifiedCamera, segments: ArrayLike, covariances: ArrayLike,
                      measured: ArrayLike, ratios: ArrayLike | None = None,
                      sigma_px: ArrayLike = 1.0, other_information: ArrayLike | None = None,

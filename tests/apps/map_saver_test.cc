@@ -45,7 +45,7 @@ TEST(MapSaver, WritesLandmarksThatFit) {
   ASSERT_GT(before.Share(), 0.3);
   const ScratchFolder folder;
   const std::filesystem::path file = folder / "map.plb";
-  MapSaver saver(file, LineOptions{});
+  MapSaver saver(file, LineSettings{});
   saver.Take(broken);
   constexpr int kPatience = 1000;
   for (int i = 0; i < kPatience && !std::filesystem::exists(file); ++i) {

@@ -98,17 +98,6 @@ TEST_F(ReferenceMatching, NothingInCommonGivesNothing) {
   EXPECT_FALSE(MatchToReference(empty, empty).motion.known());
 }
 
-TEST_F(ReferenceMatching, RaysAreThoseOfTheMatchedFeatures) {
-  const SyntheticFrame a = SenseAt(PoseOnPath(0));
-  const SyntheticFrame b = SenseAt(PoseOnPath(5));
-  const std::vector<PointMatch> matches{{3, 7, 0}};
-  const auto rays = RayMatchesOf(world_.camera, a.indexed->features, b.indexed->features, matches);
-  ASSERT_EQ(rays.size(), 1U);
-  const PointFeature& in_b = b.indexed->features.points[7];
-  EXPECT_LT((world_.camera.Project(rays[0].b.homogeneous()) - in_b.px).norm(), 1e-9);
-  EXPECT_NEAR(rays[0].sigma_b * 427.5, in_b.sigma_px, 1e-9);  // mean of 435 and 420
-}
-
 Eigen::Vector2d RandomPixel(Rng& rng) {
   const double x = rng.Uniform(0, 640);
   return {x, rng.Uniform(0, 480)};

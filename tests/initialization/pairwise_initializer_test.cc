@@ -98,7 +98,7 @@ template <class Pose>
 PairwiseRun StartPairwise(const Pose& pose_of, int frames, InitializationOptions options = {}) {
   PairwiseRun run;
   Rng rng(11, "pairwise_initializer");
-  options.method = InitializationMethod::kRank1Pairwise;
+  options.method = "rank1_pairwise";
   PairwiseInitializer initializer(run.world.Imaging(), options, 1);
   for (int i = 0; i < frames && !run.map; ++i) {
     const SyntheticFrame frame = Sense(run.world, pose_of(i), {.depth = false, .noise = 0.5}, rng);

@@ -4,46 +4,51 @@
 
 #include "plumbline/line_cutting/pose_information.h"
 
-#include "tests/line_cutting/random_lines.h"
-#include <algorithm>
+#include "tests/line_cutting/random_points.h"
+#include <vector>
 
 #include <gtest/gtest.h>
 
 namespace plumbline {
 namespace {
 
-double Value(const CuttingProblem& problem, const CuttingOptions& options) {
-  return LogDeterminantOf(problem, CutLines(problem, options), options.information);
+double Value(const CuttingProblem& problem, CuttingInformation kind) {
+  return LogDeterminantOf(problem, CutLines(problem, kind), kind);
+}
+
+double Whole(const CuttingProblem& problem, CuttingInformation kind) {
+  return LogDeterminantOf(problem, std::vector<LineCut>(problem.lines.size()), kind);
 }
 
 TEST(CutLines, RaisesTheInformationThatIsAskedFor) {
   for (const auto kind : {CuttingInformation::kIndependent, CuttingInformation::kPrinted}) {
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
       const CuttingProblem problem = RandomProblem(seed, 12);
-      const double full = Value(problem, {CuttingMethod::kNone, kind});
-      const double greedy = Value(problem, {CuttingMethod::kGreedy, kind});
-      const double sweeps = Value(problem, {CuttingMethod::kGreedySweeps, kind});
-      const double joint = Value(problem, {CuttingMethod::kJoint, kind});
-      EXPECT_GT(greedy, full + 0.1);
-      EXPECT_GE(sweeps, greedy - 1e-9);
-      EXPECT_GT(joint, full + 0.1);
+      EXPECT_GT(Value(problem, kind), Whole(problem, kind) + 0.1);
     }
   }
+}
+
+TEST(CutEachLine, ReturnsTheRiseOfTheInformation) {
+  const auto kind = CuttingInformation::kIndependent;
+  const CuttingProblem problem = RandomProblem(3, 12);
+  std::vector<LineCut> cuts(12);
+  const double gain = CutEachLine(problem, kind, cuts);
+  EXPECT_EQ(cuts, CutLines(problem));
+  EXPECT_NEAR(gain, LogDeterminantOf(problem, cuts, kind) - Whole(problem, kind), 1e-6);
+  EXPECT_GE(CutEachLine(problem, kind, cuts), -1e-9);  // begins with the cuts
+  EXPECT_GE(LogDeterminantOf(problem, cuts, kind), Value(problem, kind) - 1e-9);
 }
 
 TEST(CutLines, GainsNothingInTheCorrelatedInformation) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const CuttingProblem problem = RandomProblem(seed, 12);
     const auto kind = CuttingInformation::kCorrelated;
-    const double full = Value(problem, {CuttingMethod::kNone, kind});
-    for (const auto method : {CuttingMethod::kGreedy, CuttingMethod::kJoint}) {
-      const double cut = Value(problem, {method, kind});
-      EXPECT_GE(cut, full);
-      EXPECT_LT(cut, full + 1e-3) << NameOf(method);
-    }
+    const double full = Whole(problem, kind);
+    EXPECT_GE(Value(problem, kind), full);
+    EXPECT_LT(Value(problem, kind), full + 1e-3);
     // And what cutting seems to gain is none.
-    const auto cuts = CutLines(problem, {CuttingMethod::kGreedy});
-    EXPECT_LT(LogDeterminantOf(problem, cuts, kind), full + 1e-3);
+    EXPECT_LT(LogDeterminantOf(problem, CutLines(problem), kind), full + 1e-3);
   }
 }
 
@@ -80,53 +85,39 @@ TEST(CutWeight, IsTheInverseVarianceOfEachDistance) {
 
 TEST(CutLines, CutsLieOnTheLineInOrder) {
   const CuttingProblem problem = RandomProblem(5, 30);
-  for (const auto method :
-       {CuttingMethod::kGreedy, CuttingMethod::kGreedySweeps, CuttingMethod::kJoint}) {
-    for (const LineCut& cut : CutLines(problem, {method})) {
-      EXPECT_TRUE(cut.used);
-      EXPECT_GE(cut.first, 0);
-      EXPECT_LE(cut.first, cut.second);
-      EXPECT_LE(cut.second, 1);
-    }
+  for (const LineCut& cut : CutLines(problem)) {
+    EXPECT_TRUE(cut.used);
+    EXPECT_GE(cut.first, 0);
+    EXPECT_LE(cut.first, cut.second);
+    EXPECT_LE(cut.second, 1);
   }
+  EXPECT_TRUE(CutLines({}).empty());
 }
 
-TEST(CutLines, LeavesOutTheMostUncertain) {
-  CuttingProblem problem = RandomProblem(6, 10);
-  for (const std::size_t i : {1U, 4U, 7U}) {
-    problem.lines[i].start_covariance *= 1e4;
-    problem.lines[i].end_covariance *= 1e4;
-  }
-  const auto cuts = CutLines(problem, {.method = CuttingMethod::kDrop, .drop_share = 0.3});
-  for (std::size_t i = 0; i < cuts.size(); ++i) {
-    EXPECT_EQ(cuts[i].used, i != 1 && i != 4 && i != 7);
-    EXPECT_EQ(cuts[i].first, 0);
-    EXPECT_EQ(cuts[i].second, 1);
-  }
-  const auto all = CutLines(problem, {.method = CuttingMethod::kDrop, .drop_share = 1});
-  EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const LineCut& c) { return c.used; }), 4);
-}
-
-TEST(CutLines, DoesNothingUnlessAsked) {
-  const CuttingProblem problem = RandomProblem(7, 5);
-  EXPECT_EQ(CutLines(problem, {}), std::vector<LineCut>(5));
-  EXPECT_TRUE(CutLines({}, {CuttingMethod::kGreedy}).empty());
+TEST(ChooseAll, TakesAllPointsAndCutsLinesBesideThem) {
+  const CuttingProblem problem = RandomProblem(7, 6);
+  const std::vector<PointRows> points = RandomPoints(7, 8);
+  CuttingProblem with_points = problem;
+  with_points.other_information += SumPoints(points);
+  const ChosenFeatures chosen = ChooseAll(problem, points, {.method = "greedy"});
+  EXPECT_EQ(chosen.points, std::vector<bool>(8, true));
+  EXPECT_EQ(chosen.lines, CutLines(with_points));
+  EXPECT_NE(chosen.lines, CutLines(problem));
+  EXPECT_TRUE(chosen.others);
 }
 
 TEST(CutLines, KeepsLinesWholeWhereThePrintedInformationIsNone) {
   const CuttingProblem problem = RandomProblem(10, 2);  // l^T H_x has rank 4
-  for (const auto method : {CuttingMethod::kGreedySweeps, CuttingMethod::kJoint}) {
-    EXPECT_EQ(CutLines(problem, {method, CuttingInformation::kPrinted}), std::vector<LineCut>(2));
-  }
+  EXPECT_EQ(CutLines(problem, CuttingInformation::kPrinted), std::vector<LineCut>(2));
 }
 
 TEST(CutLines, RefusesLinesBehindTheCamera) {
   CuttingProblem problem = RandomProblem(8, 5);
   problem.lines[2].segment_in_cam.end.z() = -1;
-  EXPECT_THROW(CutLines(problem, {CuttingMethod::kGreedy}), BugError);
+  EXPECT_THROW(CutLines(problem), BugError);
   problem = RandomProblem(8, 5);
   problem.lines[2].sigma_px = 0;
-  EXPECT_THROW(CutLines(problem, {CuttingMethod::kGreedy}), BugError);
+  EXPECT_THROW(CutLines(problem), BugError);
 }
 
 TEST(LineCut, ImageRatioIsThatOfTheProjectedPoint) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/line_cutting/choose_features.h"
+#include "plumbline/line_cutting/cut_lines.h"
 #include "plumbline/optimization/residuals.h"
 
 #include "tests/line_cutting/random_lines.h"

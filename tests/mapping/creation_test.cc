@@ -241,14 +241,14 @@ TEST(CreateLinesFromViews, MatchesAsTheLineOptionsSay) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 300);
   const Rigid3 aside{Eigen::Quaterniond::Identity(), {-0.6, 0, 0}};
   const TrueMap scene = WithFreeFeatures(world, {Rigid3{}, aside}, kMono);
-  const auto count = [&](const LineOptions& lines) {
+  const auto count = [&](const LineSettings& lines) {
     return CreateLinesFromViews(scene.map, world.Imaging(), KeyFrameId{1}, lines).size();
   };
   const std::size_t usual = count({});
-  LineOptions gate;
+  LineSettings gate;
   gate.rotation_gate = true;
   EXPECT_LT(count(gate), usual / 2);
-  LineOptions lengths;
+  LineSettings lengths;
   lengths.min_length_ratio = 0.99;
   EXPECT_LT(count(lengths), usual);
 }

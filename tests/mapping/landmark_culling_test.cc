@@ -245,7 +245,7 @@ TrueMap SceneOf(const SyntheticWorld& world) {
 }
 
 void Clean(const SyntheticWorld& world, Map& map) {
-  map.Apply(RemoveOutliers(map, world.Imaging(), LineOptions{}));
+  map.Apply(RemoveOutliers(map, world.Imaging(), {}));
   map.CheckInvariants();
 }
 
@@ -266,8 +266,8 @@ std::set<Wrong> ExchangeLines(TrueMap& scene, KeyFrameId keyframe, LineId a, Lin
 TEST(RemoveOutliers, ChangesNothingWhereAllAgree) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 60);
   const TrueMap scene = SceneOf(world);
-  EXPECT_TRUE(RemoveOutliers(scene.map, world.Imaging(), LineOptions{}).empty());
-  EXPECT_TRUE(RemoveOutliers(Map(), world.Imaging(), LineOptions{}).empty());
+  EXPECT_TRUE(RemoveOutliers(scene.map, world.Imaging(), {}).empty());
+  EXPECT_TRUE(RemoveOutliers(Map(), world.Imaging(), {}).empty());
 }
 
 TEST(RemoveOutliers, TakesAwayWhatIsWrongInTheMiddleOfATrack) {

@@ -26,7 +26,7 @@ LocalBaWindow Window(const TrueMap& scene,
                      const SyntheticWorld& world,
                      std::int64_t centre,
                      const LocalBaWindowOptions& options) {
-  return MakeLocalBaWindow(scene.map, world.Imaging(), KeyFrameId{centre}, LineOptions{}, options);
+  return MakeLocalBaWindow(scene.map, world.Imaging(), KeyFrameId{centre}, {}, options);
 }
 
 std::set<KeyFrameId> Free(const LocalBaWindow& window) {
@@ -120,7 +120,7 @@ TEST(LocalBaWindow, HoldsNoLinesParallelUnlessAskedTo) {
 TEST(LocalBaWindow, IsCompletedByTheMethodOfItsLines) {
   const SyntheticWorld world = MakeSyntheticWorld(100, 20);
   const TrueMap scene = MakeTrueMap(world, Path(4, 5), kSensor);
-  LineOptions lines;
+  LineSettings lines;
   lines.weighting = LineWeighting::kNone;
   lines.method.complete_window = [](const LineWeights& weights, BaProblem& problem) {
     EXPECT_EQ(weights.kind, LineWeighting::kNone);

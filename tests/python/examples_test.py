@@ -60,7 +60,7 @@ def test_rank1_explained(sequence, tmp_path):
 def test_cutting_explained(tmp_path):
     said = ran("cutting_explained.py", "--scenes", 8, "--steps", 12, "--out", tmp_path,
                picture=tmp_path / "cutting.png")
-    assert number(said, r"greedy_sweeps: log det grows by ([0-9.]+)") > 0.5
+    assert number(said, r"15 lines: log det grows by ([0-9.]+)") > 0.5
 
 
 def test_compare_runs(sequence, tmp_path):

@@ -83,24 +83,33 @@ TEST(CheckOptions, WantsTheLeastBelowTheGreatest) {
   EXPECT_EQ(message(options), "no error");
 }
 
-// Kinds of lines to compare with are options in every build, so that files which name them can be
-// read, but a run that is to use one needs the build that has it.
-TEST(CheckOptions, NamesTheBuildThatHasAKindOfLine) {
-  const std::string needs =
-      " needs a build of plumbline with the laboratory; configure with -DPLUMBLINE_LAB=ON";
-  for (const std::string value : {"parametrization: plucker_left",
-                                  "parametrization: endpoints",
-                                  "residual: projected_ends",
-                                  "reconstruction: two_view"}) {
+// Methods of the laboratory are none of the product: they are refused when options are read.
+TEST(SlamOptions, KnowTheMethodsOfTheProduct) {
+  for (const std::string method : {"initialization.method=two_view",
+                                   "lines.residual=endpoints",
+                                   "lines.reconstruction=two_view",
+                                   "cutting.method=joint"}) {
     SlamOptions options;
-    OptionTable(options).LoadText("lines: {" + value + "}", "earlier");
-    try {
-      CheckOptions(options);
-      ADD_FAILURE() << value;
-    } catch (const InputError& error) {
-      EXPECT_EQ(error.what(), "lines." + value + needs);
-    }
+    EXPECT_THROW(OptionTable(options).Set(method), InputError) << method;
   }
+  SlamOptions options;
+  OptionTable table(options);
+  EXPECT_THAT([&] { table.Set("cutting.method=joint"); },
+              ::testing::ThrowsMessage<InputError>(::testing::HasSubstr(
+                  "cutting.method: expected one of none | greedy, found 'joint'")));
+  options.cutting.method = "joint";
+  EXPECT_THROW(CheckOptions(options), InputError);
+}
+
+TEST(CheckOptions, RefusesAResidualOfPosesWithAMap) {
+  SlamOptions options;
+  options.lines.residual = "projected_ends";
+  EXPECT_THAT([&] { CheckOptions(options); },
+              ::testing::ThrowsMessage<InputError>(
+                  "lines.residual: projected_ends needs tracking.reference last_frame, found "
+                  "local_map; maps are adjusted by other residuals"));
+  options.tracking.reference = TrackingReference::kLastFrame;
+  EXPECT_NO_THROW(CheckOptions(options));
 }
 
 // A number without an upper bound keeps the program busy, or asks for memory, without end.
@@ -131,6 +140,8 @@ TEST(SlamOptions, ReadFilesOf0_2_0) {
     ASSERT_NE(removed.value, "") << removed.name;
     earlier += removed.name + ": " + removed.value + "\n";
   }
+  EXPECT_THAT(earlier, ::testing::HasSubstr("lines.parametrization: plucker\n"));
+  EXPECT_THAT(earlier, ::testing::HasSubstr("cutting.budget: 0\n"));
   EXPECT_THAT(earlier, ::testing::HasSubstr("tracking.max_pose_sigma: 0.02\n"));
   EXPECT_THAT(earlier, ::testing::HasSubstr("features.stereo_lines.ratio: 0.9\n"));
   EXPECT_THAT(earlier, ::testing::HasSubstr("mapping.ba.function_tolerance: 0.001\n"));

@@ -36,17 +36,16 @@ Lines LinesFor(const std::vector<std::string>& settings,
 TEST(OptionsWithoutEffect, NamesBothOptions) {
   EXPECT_THAT(LinesFor({"cutting.method=greedy", "features.lines=false"}),
               ElementsAre("cutting.method: no effect with features.lines=false"));
-  EXPECT_THAT(LinesFor({"initialization.method=two_view",
-                        "initialization.factorize=true",
-                        "initialization.pairwise.adjust=false"}),
-              ElementsAre("initialization.factorize, initialization.pairwise.adjust: no effect "
-                          "with initialization.method=two_view"));
+  EXPECT_THAT(LinesFor({"initialization.method=rank1_pairwise",
+                        "initialization.interpolate=false",
+                        "initialization.matching=descriptors"}),
+              ElementsAre("initialization.interpolate, initialization.matching: no effect "
+                          "with initialization.method=rank1_pairwise"));
 }
 
 TEST(OptionsWithoutEffect, IsSilentWhereOptionsHaveOne) {
-  EXPECT_THAT(LinesFor({"features.lines=false", "cutting.budget=100"}), IsEmpty());
   EXPECT_THAT(LinesFor({"cutting.method=greedy", "cutting.ends=inverse_depth"}), IsEmpty());
-  EXPECT_THAT(LinesFor({"initialization.method=two_view"}, "mono"), IsEmpty());
+  EXPECT_THAT(LinesFor({"initialization.method=rank1_pairwise"}, "mono"), IsEmpty());
   EXPECT_THAT(LinesFor({"initialization.pairwise.missing=leave_out"}, "mono", "rippl"), IsEmpty());
   for (const Preset& preset : Presets()) {
     SlamOptions before, after;
@@ -74,16 +73,12 @@ TEST(OptionsWithoutEffect, KnowsTheOtherOptions) {
       {{"features.line_count=0", "features.line.merge=false"}, "features.line_count=0"},
       {{"features.points=false", "features.point_count=9"}, "features.points=false"},
       {{"lines.constant_sigma_px=2"}, "lines.weighting=covariance"},
-      {{"cutting.drop_share=0.5", "cutting.method=greedy"}, "cutting.method=greedy"},
       {{"cutting.information=printed"}, "cutting.method=none"},
-      {{"cutting.information=printed", "cutting.method=drop"}, "cutting.method=drop"},
       {{"cutting.ends=inverse_depth"}, "cutting.method=none"},
       {{"cutting.end_sigma=0.01", "cutting.method=greedy"}, "cutting.ends=landmark"},
       {{"initialization.pairwise.missing=leave_out"}, "initialization.method=rank1"},
       {{"initialization.matching=descriptors", "initialization.method=rank1_pairwise"},
        "initialization.method=rank1_pairwise"},
-      {{"initialization.frames=5", "initialization.method=two_view"},
-       "initialization.method=two_view"},
       {{"initialization.reweighting=0", "initialization.factorize=false"},
        "initialization.factorize=false"},
       {{"initialization.min_line_angle_deg=5", "initialization.interpolate=false"},
@@ -103,10 +98,10 @@ TEST(OptionsWithoutEffect, KnowsTheOtherOptions) {
 }
 
 TEST(OptionsWithoutEffect, KnowsTheSensor) {
-  EXPECT_THAT(
-      LinesFor({"initialization.method=two_view", "mapping.lens_calibration=false"}, "stereo"),
-      ElementsAre("initialization.method, mapping.lens_calibration: no effect with "
-                  "--sensor stereo"));
+  EXPECT_THAT(LinesFor({"initialization.method=rank1_pairwise", "mapping.lens_calibration=false"},
+                       "stereo"),
+              ElementsAre("initialization.method, mapping.lens_calibration: no effect with "
+                          "--sensor stereo"));
   EXPECT_THAT(LinesFor({"features.depth.max_depth_m=5"}, "stereo"),
               ElementsAre("features.depth.max_depth_m: no effect with --sensor stereo"));
   EXPECT_THAT(LinesFor({"features.depth.max_depth_m=5"}, "rgbd"), IsEmpty());

@@ -57,7 +57,7 @@ class KeyFramesAhead : public ::testing::Test {
 
   SyntheticWorld world_ = MakeSyntheticWorld(400, 60);
   MappingOptions options_;
-  LocalMapper mapper_{world_.Imaging(), LineOptions{}, options_};
+  LocalMapper mapper_{world_.Imaging(), LineSettings{}, options_};
   Map map_;
   std::shared_ptr<const MapSnapshot> snapshot_;
   std::vector<std::vector<std::size_t>> truth_;  // of the points of each keyframe

@@ -78,6 +78,29 @@ AtlasContext MeasuredWith(const std::string& options_yaml) {
   return context;
 }
 
+// A map of the laboratory names methods that the product does not have.
+TEST(SavedOptionsOrDefault, TellOfMethodsThatThisProgramDoesNotHave) {
+  std::vector<std::string> remarks;
+  AtlasContext context;
+  context.options_yaml = "cutting:\n  method: joint\nmapping:\n  line_map: {min_keyframes: 7}\n";
+  const auto read = [&](const std::vector<AddedMethod>& added) {
+    return SavedOptionsOrDefault(
+        context,
+        "m.plb",
+        "lines as by default",
+        [&](const std::string& text) { remarks.push_back(text); },
+        {},
+        added);
+  };
+  const SlamOptions options = read({});
+  EXPECT_EQ(options.cutting.method, "none");
+  EXPECT_EQ(options.mapping.line_map.min_keyframes, 7);
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_EQ(remarks[0], "m.plb:2: cutting.method: expected one of none | greedy, found 'joint'");
+  EXPECT_EQ(read({{"cutting.method", "joint", "all at once"}}).cutting.method, "joint");
+  EXPECT_EQ(remarks.size(), 1U);
+}
+
 TEST(FrontEndDifferences, SayWhatIsNotTheSame) {
   const AtlasContext before = MeasuredWith("features: {line_count: 150}");
   EXPECT_TRUE(FrontEndDifferences(before, before).empty());

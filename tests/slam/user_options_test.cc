@@ -21,12 +21,12 @@ TEST(OptionTiers, AreFewAndExist) {
   SlamOptions options;
   std::map<OptionTier, int> count;
   for (const std::string& key : OptionTable(options).Keys()) ++count[TierOf(key)];
-  EXPECT_EQ(count[OptionTier::kUser], 27);
-  EXPECT_EQ(count[OptionTier::kPaper], 27);
+  EXPECT_EQ(count[OptionTier::kUser], 26);
+  EXPECT_EQ(count[OptionTier::kPaper], 25);
   EXPECT_EQ(count[OptionTier::kMethod], 12);
   EXPECT_EQ(TierOf("features.orb.calibration_sigma"), OptionTier::kMethod);
-  EXPECT_EQ(TierOf("lines.parametrization"), OptionTier::kPaper);
-  EXPECT_EQ(TierOf("cutting.budget"), OptionTier::kUser);
+  EXPECT_EQ(TierOf("lines.residual"), OptionTier::kPaper);
+  EXPECT_EQ(TierOf("slam.lag"), OptionTier::kUser);
 }
 
 // Whatever a preset changes is an option of users or of the papers.

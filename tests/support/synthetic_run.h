@@ -17,12 +17,14 @@ namespace plumbline {
 // Tracker and mapping together on frames without images: the part of System after the features.
 class SyntheticRun {
  public:
-  SyntheticRun(const SyntheticWorld& world, const SlamOptions& options = InlineOptions())
+  SyntheticRun(const SyntheticWorld& world,
+               const SlamOptions& options = InlineOptions(),
+               const SystemMethods& methods = {})
       : world_(world),
-        mapping_(world.Imaging(), options),
+        mapping_(world.Imaging(), options, {}, methods),
         tracker_(world.Imaging(),
                  options.tracking,
-                 {world.camera, options.lines, options.cutting},
+                 methods.MakePoseEstimator(world.camera, options),
                  Rigid3{}) {}
 
   static SlamOptions InlineOptions() {

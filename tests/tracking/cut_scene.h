@@ -4,7 +4,7 @@
 
 #include "plumbline/base/random.h"
 #include "plumbline/geometry/plucker.h"
-#include "plumbline/matching/line_options.h"
+#include "plumbline/matching/line_method.h"
 #include "plumbline/tracking/line_cutting.h"
 
 #include <algorithm>
@@ -70,35 +70,23 @@ struct CutScene {
     }
   }
 
-  PoseProblem Cut(CuttingMethod method,
-                  LineWeighting weighting = LineWeighting::kNone,
-                  CuttingInformation information = CuttingInformation::kIndependent,
-                  int budget = 0) const {
-    LineOptions lines;
-    lines.method = line_method;
-    lines.weighting = weighting;
-    CuttingOptions cutting{.method = method, .information = information};
-    cutting.budget = budget;
-    return WithCutLines(problem, candidates, lines, cutting);
+  PoseProblem Cut(LineWeighting weighting = LineWeighting::kNone,
+                  const CuttingSettings& cutting = {{.method = "greedy"}}) const {
+    return WithCutLines(problem, candidates, {{.weighting = weighting}, line_method}, cutting);
   }
 };
 
-inline void ExpectPoseOfCutLines(const LineMethod& lines) {
+inline void ExpectPoseOfCutLines(const LineMethod& lines,
+                                 const CuttingSettings& cutting = {{.method = "greedy"}}) {
   const CutScene scene(lines);
-  for (const auto method : {CuttingMethod::kGreedy,
-                            CuttingMethod::kGreedySweeps,
-                            CuttingMethod::kJoint,
-                            CuttingMethod::kDrop}) {
-    for (const auto weighting :
-         {LineWeighting::kNone, LineWeighting::kScalar, LineWeighting::kCovariance}) {
-      PoseProblem cut = scene.Cut(method, weighting);
-      cut.cam_from_world =
-          ExpSe3((Vector6d() << 0.004, -0.003, 0.002, 0.01, -0.02, 0.01).finished());
-      const PoseOnlyResult result = lines.solve_pose(cut, {});
-      EXPECT_TRUE(result.converged);
-      EXPECT_LT(LogSe3(result.cam_from_world).norm(), 1e-4)
-          << NameOf(method) << " " << NameOf(weighting);
-    }
+  for (const auto weighting :
+       {LineWeighting::kNone, LineWeighting::kScalar, LineWeighting::kCovariance}) {
+    PoseProblem cut = scene.Cut(weighting, cutting);
+    cut.cam_from_world = ExpSe3((Vector6d() << 0.004, -0.003, 0.002, 0.01, -0.02, 0.01).finished());
+    const PoseOnlyResult result = lines.solve_pose(cut, {});
+    EXPECT_TRUE(result.converged);
+    EXPECT_LT(LogSe3(result.cam_from_world).norm(), 1e-4)
+        << cutting.method << " " << NameOf(weighting);
   }
 }
 

@@ -9,7 +9,6 @@
 #include "tests/tracking/cut_scene.h"
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
@@ -91,7 +90,7 @@ TEST(WithCutLines, KeepsThePoseOfExactMeasurements) { testing::ExpectPoseOfCutLi
 
 TEST(WithCutLines, CutsTowardsTheEndThatIsKnown) {
   const Scene scene;
-  const PoseProblem cut = scene.Cut(CuttingMethod::kGreedySweeps);
+  const PoseProblem cut = scene.Cut();
   ASSERT_EQ(cut.lines.size(), scene.problem.lines.size());
   int shorter = 0;
   double ratio_sum = 0;
@@ -110,7 +109,7 @@ TEST(WithCutLines, CutsTowardsTheEndThatIsKnown) {
 TEST(WithCutLines, MovesMeasuredEndsToWhereThePieceShows) {
   const Scene scene;
   const RectifiedCamera& camera = scene.problem.camera;
-  for (const auto& match : scene.Cut(CuttingMethod::kGreedy).lines) {
+  for (const auto& match : scene.Cut().lines) {
     const Eigen::Vector3d shift(camera.ShiftInto(match.measurement.camera), 0, 0);
     const Segment2& segment = match.measurement.segment;
     EXPECT_LT((segment.start - camera.Project(match.ends.start + shift)).norm(), 1e-6);
@@ -120,9 +119,9 @@ TEST(WithCutLines, MovesMeasuredEndsToWhereThePieceShows) {
 
 TEST(WithCutLines, WeightsPiecesAsAsked) {
   const Scene scene;
-  const PoseProblem none = scene.Cut(CuttingMethod::kGreedy);
-  const PoseProblem scalar = scene.Cut(CuttingMethod::kGreedy, LineWeighting::kScalar);
-  const PoseProblem full = scene.Cut(CuttingMethod::kGreedy, LineWeighting::kCovariance);
+  const PoseProblem none = scene.Cut();
+  const PoseProblem scalar = scene.Cut(LineWeighting::kScalar);
+  const PoseProblem full = scene.Cut(LineWeighting::kCovariance);
   int pieces = 0;
   for (std::size_t i = 0; i < none.lines.size(); ++i) {
     const bool whole = none.lines[i].ends.Length() == scene.problem.lines[i].ends.Length();
@@ -139,67 +138,13 @@ TEST(WithCutLines, WeightsPiecesAsAsked) {
   EXPECT_GT(pieces, 10);
 }
 
-TEST(WithCutLines, DropLeavesLinesOutInBothImages) {
-  const Scene scene;
-  const PoseProblem cut = scene.Cut(CuttingMethod::kDrop);
-  // 0.3 of 12 lines are 3.
-  EXPECT_EQ(cut.lines.size(), scene.problem.lines.size() - 6);
-  for (std::size_t i = 0; i < cut.lines.size(); i += 2) {
-    EXPECT_EQ(cut.lines[i].group, cut.lines[i + 1].group);
-    EXPECT_EQ(cut.lines[i].measurement.covariance, scene.problem.lines[0].measurement.covariance);
-  }
-}
-
-TEST(WithCutLines, TrimsToTheMeasuredSegmentAndNoFurther) {
-  Scene scene;
-  const RectifiedCamera& camera = scene.problem.camera;
-  Segment2& seen = scene.problem.lines[0].measurement.segment;
-  seen.end = seen.Midpoint();
-  const PoseProblem trimmed = scene.Cut(CuttingMethod::kTrim);
-  ASSERT_EQ(trimmed.lines.size(), scene.problem.lines.size());
-  for (std::size_t i = 0; i < trimmed.lines.size(); ++i) {
-    const Segment3 &whole = scene.problem.lines[i].ends, &piece = trimmed.lines[i].ends;
-    EXPECT_LT((piece.start - whole.start).norm(), 1e-6) << i;
-    if (i < 2) {  // both images of the first line
-      const Eigen::Vector2d shown = camera.Project(piece.end);
-      EXPECT_LT((shown - seen.end).norm(), 1e-6) << i;
-    } else {
-      EXPECT_LT((piece.end - whole.end).norm(), 1e-6) << i;
-    }
-  }
-  EXPECT_GT((trimmed.lines[0].ends.end - scene.problem.lines[0].ends.end).norm(), 0.1);
-}
-
 TEST(WithCutLines, LeavesShortLinesWhole) {
   Scene scene;
   LineMeasurement& left = scene.problem.lines[0].measurement;
   left.segment.end = left.segment.start + Eigen::Vector2d(3, 2);
-  const PoseProblem cut = scene.Cut(CuttingMethod::kGreedy);
+  const PoseProblem cut = scene.Cut();
   EXPECT_EQ(cut.lines[0].measurement.segment.end, left.segment.end);
   EXPECT_EQ(cut.lines[1].measurement.segment.end, scene.problem.lines[1].measurement.segment.end);
-}
-
-TEST(WithCutLines, KeepsToTheBudget) {
-  Scene scene;
-  Rng rng(8, "points of a budget");
-  for (int i = 0; i < 30; ++i) {
-    const Eigen::Vector3d place(rng.Uniform(-2, 2), rng.Uniform(-1.5, 1.5), rng.Uniform(2, 7));
-    scene.problem.points.push_back({place, {scene.problem.camera.Project(place), kSigmaPx, {}}});
-  }
-  PoseProblem chosen = scene.Cut(CuttingMethod::kGreedy, LineWeighting::kNone, {}, 15);
-  std::set<int> groups;
-  for (const auto& match : chosen.lines) groups.insert(match.group);
-  EXPECT_EQ(chosen.points.size() + groups.size(), 15U);
-  EXPECT_EQ(chosen.lines.size(), 2 * groups.size());
-  EXPECT_FALSE(chosen.points.empty());
-  EXPECT_FALSE(groups.empty());
-  chosen.cam_from_world =
-      ExpSe3((Vector6d() << 0.004, -0.003, 0.002, 0.01, -0.02, 0.01).finished());
-  EXPECT_LT(LogSe3(SolvePose(chosen).cam_from_world).norm(), 1e-4);
-  // A budget that is not reached changes nothing.
-  const PoseProblem all = scene.Cut(CuttingMethod::kNone, LineWeighting::kNone, {}, 42);
-  EXPECT_EQ(all.points.size(), 30U);
-  EXPECT_EQ(all.lines.size(), scene.problem.lines.size());
 }
 
 TEST(PointsThatFit, LeavesOutWhatIsFarOrBehind) {

@@ -83,7 +83,7 @@ inline void ExpectNear(const Rigid3& pose, const Rigid3& truth, double metres, d
 }
 
 // A fifth of the matches are wrong; no more than `wrong_lines` of those of lines may stay.
-inline void ExpectPoseWithWrongMatches(const LineOptions& options, int wrong_lines) {
+inline void ExpectPoseWithWrongMatches(const LineSettings& options, int wrong_lines) {
   MatchedFrame frame(0.2);
   const int points = frame.association.matches.Points();
   const int lines = frame.association.matches.Lines();

@@ -20,7 +20,7 @@ using testing::MatchedFrame;
 TEST(EstimatePose, RecoversThePoseAndDropsWrongMatches) {
   for (const auto weighting :
        {LineWeighting::kNone, LineWeighting::kScalar, LineWeighting::kCovariance}) {
-    testing::ExpectPoseWithWrongMatches({.weighting = weighting}, 2);
+    testing::ExpectPoseWithWrongMatches({{.weighting = weighting}}, 2);
   }
 }
 

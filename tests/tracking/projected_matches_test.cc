@@ -19,10 +19,9 @@ using testing::kExact;
 using testing::kSlanted;
 using testing::LineScene;
 
-LineOptions Projected(LineWeighting weighting = LineWeighting::kCovariance) {
-  LineOptions lines{.residual = LineResidualKind::kProjectedEnds, .weighting = weighting};
-  lines.method = ProductLineMethod(lines);
-  return lines;
+LineSettings Projected(LineWeighting weighting = LineWeighting::kCovariance) {
+  const LineOptions options{.residual = "projected_ends", .weighting = weighting};
+  return {options, ProductLineMethod(options)};
 }
 
 TEST(UseProjectedEnds, FollowsTheWeighting) {
@@ -62,7 +61,7 @@ TEST(ProjectedMatches, KeepThePoseOfExactMeasurementsWhenTheyAreCut) {
 
 TEST(ProjectedMatches, AreCutInTheMapAndNotInTheImage) {
   const CutScene scene(Projected().method);
-  const PoseProblem cut = scene.Cut(CuttingMethod::kGreedy);
+  const PoseProblem cut = scene.Cut();
   int pieces = 0;
   for (std::size_t i = 0; i < cut.lines.size(); ++i) {
     const PoseProblem::LineMatch& whole = scene.problem.lines[i];

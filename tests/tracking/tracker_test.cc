@@ -52,7 +52,7 @@ TEST(Tracker, FollowsASmoothPathWithLinesOnly) {
 
 TEST(Tracker, FollowsASmoothPathWithCutLines) {
   SlamOptions options = SyntheticRun::InlineOptions();
-  options.cutting.method = CuttingMethod::kGreedy;
+  options.cutting.method = "greedy";
   SyntheticRun run(World(), options);
   EXPECT_LT(FollowPath(run, 0, 30, {}), 0.04);  // a little more than whole lines
 }
@@ -193,7 +193,7 @@ TEST(Tracker, LeavesAMapThatWasWithdrawnAtOnce) {
                MakeInitialMapEdit(
                    InitialMapOf(world, {0, 8, 16}), world.Imaging(), Rigid3{}, KeyFrameId{0}));
   const auto snapshot = stage.SnapshotFor(16);
-  const PoseEstimator estimator(world.camera, options.lines, options.cutting);
+  const PoseEstimator estimator(world.camera, {options.lines}, {options.cutting});
   Tracker tracker(world.Imaging(), options.tracking, estimator, Rigid3{});
   tracker.StartFrom(*snapshot, Vector6d::Zero());
   const auto track = [&](int frame, const MapSnapshot& seen) {

@@ -49,11 +49,9 @@ struct TrackedScene {
     for (std::size_t i = 0; i < models.size(); ++i) {
       candidates.push_back({&models[i], simulated.lines[i].sigma_px});
     }
-    LineOptions lines;
-    const CuttingOptions cutting{
-        .method = CuttingMethod::kGreedy, .ends = ends, .end_sigma = kNoise};
+    const CuttingOptions cutting{.method = "greedy", .ends = ends, .end_sigma = kNoise};
     std::vector<Segment3> pieces;
-    for (const auto& match : WithCutLines(problem, candidates, lines, cutting).lines) {
+    for (const auto& match : WithCutLines(problem, candidates, {}, {cutting}).lines) {
       pieces.push_back(match.ends);
     }
     return pieces;
@@ -69,7 +67,7 @@ TEST(CuttingEnds, AlikeInInverseDepthAreCutInTrackingAsInTheTestbed) {
   int otherwise = 0;
   for (std::uint64_t index = 0; index < 5; ++index) {
     const TrackedScene scene(index);
-    const auto cuts = CutLines(scene.simulated, {.method = CuttingMethod::kGreedy});
+    const auto cuts = CutLines(scene.simulated);
     const auto alike = scene.PiecesInTracking(CuttingEnds::kInverseDepth);
     const auto by_information = scene.PiecesInTracking(CuttingEnds::kLandmark);
     ASSERT_EQ(alike.size(), cuts.size());

@@ -3,6 +3,7 @@
 #include "lab/experiments/catalog.h"
 
 #include "lab/experiments/metrics.h"
+#include "lab/rivals/laboratory_methods.h"
 #include "lab/starts/start_bench.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/slam/options.h"
@@ -43,8 +44,10 @@ TEST(Catalog, EveryEntryNamesOnlyWhatThereIs) {
       EXPECT_TRUE(std::regex_match(variant.name, std::regex("[A-Za-z0-9_+-]+"))) << variant.name;
       SlamOptions of_run;
       StartOptions of_starts;
-      OptionTable table = experiment.command == RunCommandKind::kStarts ? OptionTable(of_starts)
-                                                                        : OptionTable(of_run);
+      const auto& added = LaboratoryMethods().added;
+      OptionTable table = experiment.command == RunCommandKind::kStarts
+                              ? OptionTable(of_starts, added)
+                              : OptionTable(of_run, added);
       for (const std::string& setting : variant.settings) {
         EXPECT_EQ(MessageOf([&] { table.Set(setting); }), "no error");
       }
@@ -98,13 +101,16 @@ TEST(Catalog, CuttingHasEverySettingOfThePaperTwiceSharpAndBlurred) {
           const std::string name = reference + "_" + kind + "_" + weighting + end;
           ASSERT_TRUE(variants.contains(name)) << name;
           SlamOptions options;
-          OptionTable table(options);
+          OptionTable table(options, LaboratoryMethods().added);
           for (const std::string& setting : variants[name]->settings) table.Set(setting);
           EXPECT_EQ(options.tracking.reference == TrackingReference::kLastFrame,
                     reference == "last");
-          EXPECT_EQ(options.cutting.method != CuttingMethod::kNone, kind.ends_with("Cut"));
+          const std::string cutting = kind.starts_with("PL80") ? "best_80"
+                                      : kind.ends_with("Cut")  ? "greedy"
+                                                               : "none";
+          EXPECT_EQ(options.cutting.method,
+                    kind == "PL80+Cut" ? std::string("best_80_greedy") : cutting);
           EXPECT_EQ(options.features.points, kind.starts_with("P"));
-          EXPECT_EQ(options.cutting.budget, kind.starts_with("PL80") ? 80 : 0);
           EXPECT_EQ(NameOf(options.lines.weighting), weighting);
           EXPECT_EQ(variants[name]->arguments.empty(), end.empty());
         }

@@ -4,6 +4,7 @@
 
 #include "lab/experiments/catalog.h"
 #include "lab/experiments/computed.h"
+#include "lab/rivals/laboratory_methods.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/slam/options.h"
 #include "plumbline/slam/options_without_effect.h"
@@ -23,7 +24,7 @@ namespace {
 
 SlamOptions OptionsOf(const std::string& experiment, const std::string& variant) {
   SlamOptions options;
-  OptionTable table(options);
+  OptionTable table(options, LaboratoryMethods().added);
   for (const Variant& v : FindExperiment(experiment).variants) {
     if (v.name != variant) continue;
     const auto preset = std::find(v.arguments.begin(), v.arguments.end(), "--preset");
@@ -79,14 +80,14 @@ TEST(PaperCatalog, LoopsStayOpenInAllOfThem) {
 TEST(PaperCatalog, TheSystemsOfTable2DifferInAllThatMakesThem) {
   const SlamOptions rippl = OptionsOf("rippl-table2", "RIPPL"),
                     epl = OptionsOf("rippl-table2", "EPL"), ppl = OptionsOf("rippl-table2", "PPL");
-  EXPECT_EQ(rippl.initialization.method, InitializationMethod::kRank1Pairwise);
-  EXPECT_EQ(epl.initialization.method, InitializationMethod::kTwoView);
-  EXPECT_EQ(ppl.initialization.method, InitializationMethod::kTwoView);
-  EXPECT_EQ(rippl.lines.parametrization, LineParametrization::kPlucker);
-  EXPECT_EQ(epl.lines.parametrization, LineParametrization::kEndpoints);
-  EXPECT_EQ(epl.lines.residual, LineResidualKind::kProjectedEnds);
-  EXPECT_EQ(epl.lines.reconstruction, LineReconstruction::kTwoView);
-  EXPECT_EQ(NameOf(ppl.lines.parametrization), "plucker_left");
+  EXPECT_EQ(rippl.initialization.method, "rank1_pairwise");
+  EXPECT_EQ(epl.initialization.method, "two_view");
+  EXPECT_EQ(ppl.initialization.method, "two_view");
+  EXPECT_EQ(rippl.lines.residual, "observed_ends");
+  EXPECT_EQ(epl.lines.residual, "projected_endpoints");
+  EXPECT_EQ(epl.lines.reconstruction, "two_view");
+  EXPECT_EQ(ppl.lines.residual, "plucker_left");
+  EXPECT_EQ(ppl.lines.reconstruction, "two_view");
   for (const SlamOptions* options : {&rippl, &epl, &ppl}) {
     EXPECT_EQ(options->features.point_count, 500);
     EXPECT_EQ(options->features.line_count, 300);
@@ -108,7 +109,7 @@ TEST(PaperCatalog, TheControlsOfTable2TakeOneStepEach) {
   EXPECT_THAT(differences(variants[0]), testing::IsEmpty());
   EXPECT_THAT(differences(variants[1]), testing::ElementsAre("initialization.method"));
   EXPECT_THAT(differences(variants[2]), testing::ElementsAre("lines.reconstruction"));
-  EXPECT_THAT(differences(variants[3]), testing::ElementsAre("lines.parametrization"));
+  EXPECT_THAT(differences(variants[3]), testing::ElementsAre("lines.residual"));
   for (const char* name : {"RIPPL", "PPL"}) {
     EXPECT_THAT(DifferentOptions(OptionsOf(experiment.name, name), OptionsOf("rippl-table2", name)),
                 testing::IsEmpty());
@@ -119,7 +120,7 @@ TEST(PaperCatalog, TrimmedLinesDifferFromWholeAndCutOnesInTheMethodAlone) {
   for (const char* experiment : {"cutting-table1", "cutting-table2-3"}) {
     for (const std::string lines : {"L", "PL"}) {
       const SlamOptions trimmed = OptionsOf(experiment, lines + "_trimmed");
-      EXPECT_EQ(trimmed.cutting.method, CuttingMethod::kTrim);
+      EXPECT_EQ(trimmed.cutting.method, "trim");
       for (const std::string& other : {lines, lines + "+Cut"}) {
         EXPECT_THAT(DifferentOptions(trimmed, OptionsOf(experiment, other)),
                     testing::ElementsAre("cutting.method"));
@@ -194,7 +195,7 @@ TEST(PaperCatalog, CuttingIsAgainstTheLastFrameWithoutWeights) {
     EXPECT_EQ(options.tracking.reference, TrackingReference::kLastFrame) << name;
     EXPECT_EQ(options.lines.weighting, LineWeighting::kNone) << name;
     if (options.features.lines) {
-      EXPECT_EQ(options.cutting.method == CuttingMethod::kGreedy, name.ends_with("Cut")) << name;
+      EXPECT_EQ(options.cutting.method == "greedy", name.ends_with("Cut")) << name;
     }
     EXPECT_EQ(options.features.points, name.starts_with("P")) << name;
     EXPECT_EQ(options.features.lines, name != "P") << name;

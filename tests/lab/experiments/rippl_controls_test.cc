@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/rippl_controls.h"
 
+#include "lab/rivals/laboratory_methods.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/slam/options.h"
 #include "plumbline/slam/preset.h"
@@ -24,7 +25,7 @@ using testing::IsEmpty;
 std::map<std::string, std::string> OptionsOf(const Variant& variant) {
   EXPECT_THAT(variant.arguments, ElementsAre("--preset", "rippl"));
   SlamOptions options;
-  OptionTable table(options);
+  OptionTable table(options, LaboratoryMethods().added);
   LoadPreset("rippl", table);
   for (const std::string& setting : variant.settings) table.Set(setting);
   std::map<std::string, std::string> values;

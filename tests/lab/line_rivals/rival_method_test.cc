@@ -3,6 +3,7 @@
 #include "lab/line_rivals/rival_method.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/options_io.h"
 #include "plumbline/mapping/landmark_creation.h"
 #include "plumbline/mapping/landmark_culling.h"
 #include "plumbline/mapping/local_ba_window.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -22,30 +24,36 @@
 namespace plumbline {
 namespace {
 
-constexpr std::array kParametrizations{LineParametrization::kPlucker,
-                                       LineParametrization::kPluckerLeft,
-                                       LineParametrization::kEndpoints};
-constexpr std::array kResiduals{LineResidualKind::kObservedEnds, LineResidualKind::kProjectedEnds};
-constexpr std::array kReconstructions{LineReconstruction::kNView, LineReconstruction::kTwoView};
+// The names of lines.residual, by the residual and by what else they say.
+const std::array<std::vector<std::string>, 2> kResiduals = {
+    std::vector<std::string>{"observed_ends", "plucker_left", "endpoints"},
+    std::vector<std::string>{"projected_ends", "projected_plucker_left", "projected_endpoints"}};
 
-TEST(MethodFor, DoesWhatTheOptionsSayAndTheProductRefuses) {
-  for (const auto parametrization : kParametrizations) {
-    for (const auto residual : kResiduals) {
-      for (const auto reconstruction : kReconstructions) {
-        SlamOptions options;
-        options.lines.parametrization = parametrization;
-        options.lines.residual = residual;
-        options.lines.reconstruction = reconstruction;
-        const bool product = parametrization == LineParametrization::kPlucker &&
-                             residual == LineResidualKind::kObservedEnds &&
-                             reconstruction == LineReconstruction::kNView;
-        if (!product) {
-          EXPECT_THROW(CheckOptions(options), InputError);
-        }
-        options.lines.method = MethodFor(options.lines);
-        EXPECT_NO_THROW(CheckOptions(options));
-      }
+LineSettings SettingsOf(const LineOptions& options) { return {options, MethodFor(options)}; }
+
+TEST(MethodFor, HasTheMethodsOfTheProductAndThoseThatAreAdded) {
+  std::vector<AddedMethod> added = AddedLineMethods();
+  for (const auto& residuals : kResiduals) {
+    for (const std::string& residual : residuals) {
+      SlamOptions options;
+      OptionTable table(options, added);
+      table.Set("lines.residual=" + residual);
+      table.Set("lines.reconstruction=two_view");
+      EXPECT_THROW(CheckOptions(options), InputError);
+      EXPECT_NO_THROW(CheckOptions(options, {.added = added, .line_method = MethodFor}));
     }
+  }
+}
+
+TEST(RivalLinesOf, ReadsResidualAndParameters) {
+  constexpr std::array kParametrizations{LineParametrization::kPlucker,
+                                         LineParametrization::kPluckerLeft,
+                                         LineParametrization::kEndpoints};
+  for (std::size_t i = 0; i < kParametrizations.size(); ++i) {
+    EXPECT_EQ(RivalLinesOf(kResiduals[0][i]).parametrization, kParametrizations[i]);
+    EXPECT_EQ(RivalLinesOf(kResiduals[1][i]).parametrization, kParametrizations[i]);
+    EXPECT_EQ(RivalLinesOf(kResiduals[0][i]).residual, LineResidualKind::kObservedEnds);
+    EXPECT_EQ(RivalLinesOf(kResiduals[1][i]).residual, LineResidualKind::kProjectedEnds);
   }
 }
 
@@ -57,9 +65,8 @@ TEST(MethodFor, MakesLinesOfPairsWhereTwoViewsAreAskedFor) {
   MapEdit without_lines;
   for (const auto& [index, id] : scene.line_of) without_lines.push_back(edit::RemoveLine{id});
   scene.map.Apply(without_lines);
-  const auto most_views = [&](LineReconstruction reconstruction) {
-    LineOptions lines{.reconstruction = reconstruction};
-    lines.method = MethodFor(lines);
+  const auto most_views = [&](const std::string& reconstruction) {
+    const LineSettings lines = SettingsOf({.reconstruction = reconstruction});
     std::size_t most = 0;
     for (const MapChange& change :
          CreateLinesFromViews(scene.map, world.Imaging(), KeyFrameId{2}, lines)) {
@@ -68,8 +75,8 @@ TEST(MethodFor, MakesLinesOfPairsWhereTwoViewsAreAskedFor) {
     }
     return most;
   };
-  EXPECT_EQ(most_views(LineReconstruction::kNView), 3U);
-  EXPECT_EQ(most_views(LineReconstruction::kTwoView), 2U);
+  EXPECT_EQ(most_views("n_view"), 3U);
+  EXPECT_EQ(most_views("two_view"), 2U);
 }
 
 // The covariances become those of the projected ends, and no line is held parallel, which the
@@ -77,9 +84,9 @@ TEST(MethodFor, MakesLinesOfPairsWhereTwoViewsAreAskedFor) {
 TEST(MethodFor, CompletesWindowsForProjectedEnds) {
   const SyntheticWorld world = MakeSyntheticWorld(300, 40);
   const TrueMap scene = MakeTrueMap(world, {PoseOnPath(0), PoseOnPath(5), PoseOnPath(10)}, {});
-  LineOptions lines{.residual = LineResidualKind::kProjectedEnds};
+  const LineOptions lines{.residual = "projected_ends"};
   BaProblem observed =
-      MakeLocalBaWindow(scene.map, world.Imaging(), KeyFrameId{2}, lines, {}).problem;
+      MakeLocalBaWindow(scene.map, world.Imaging(), KeyFrameId{2}, {lines}, {}).problem;
   observed.axes = {Eigen::Vector3d::UnitY()};
   observed.parallel_lines = {{0, 0, 0.01}};
   const LineMethod method = MethodFor(lines);
@@ -127,11 +134,10 @@ PulledLine PullALine(const SyntheticWorld& world) {
 // them to what a view shows, neither there nor when the run ends.
 TEST(MethodFor, EndsPulledAlongTheirLineStayThereInTheMap) {
   const SyntheticWorld world = MakeSyntheticWorld(300, 40);
-  for (const auto residual : kResiduals) {
-    for (const auto parametrization : kParametrizations) {
+  for (const auto& residuals : kResiduals) {
+    for (const std::string& residual : residuals) {
       PulledLine pulled = PullALine(world);
-      LineOptions lines{.parametrization = parametrization, .residual = residual};
-      lines.method = MethodFor(lines);
+      const LineSettings lines = SettingsOf({.residual = residual});
       for (int round = 0; round < 2; ++round) {
         const LocalBaWindow window =
             MakeLocalBaWindow(pulled.map, world.Imaging(), KeyFrameId{3}, lines, {});
@@ -141,7 +147,7 @@ TEST(MethodFor, EndsPulledAlongTheirLineStayThereInTheMap) {
         pulled.map.Apply(ToEdit(pulled.map, world.Imaging(), window, result));
       }
       const double length = pulled.Length();
-      if (parametrization == LineParametrization::kEndpoints) {
+      if (residual.ends_with("endpoints")) {
         EXPECT_NEAR(length, pulled.length, 0.2 * pulled.length);
       } else {
         EXPECT_LT(length, 0.5 * pulled.length) << "the rest is not in view";
@@ -152,10 +158,9 @@ TEST(MethodFor, EndsPulledAlongTheirLineStayThereInTheMap) {
 
 TEST(MethodFor, RemovingOutliersLeavesEndsWhereTheyAre) {
   const SyntheticWorld world = MakeSyntheticWorld(300, 40);
-  for (const auto parametrization : kParametrizations) {
+  for (const std::string& residual : kResiduals[0]) {
     PulledLine pulled = PullALine(world);
-    LineOptions lines{.parametrization = parametrization};
-    lines.method = MethodFor(lines);
+    const LineSettings lines = SettingsOf({.residual = residual});
     // One view now shows another line.
     const KeyFrameId wrong{1};
     const int seen = pulled.map.Find(pulled.id)->observations.at(wrong);
@@ -166,7 +171,7 @@ TEST(MethodFor, RemovingOutliersLeavesEndsWhereTheyAre) {
                       edit::AddLineObservation{pulled.id, wrong, other}});
     pulled.map.Apply(RemoveOutliers(pulled.map, world.Imaging(), lines));
     ASSERT_FALSE(pulled.map.Find(pulled.id)->observations.contains(wrong));
-    if (parametrization == LineParametrization::kEndpoints) {
+    if (lines.method.keeps_ends) {
       EXPECT_NEAR(pulled.Length(), pulled.length, 0.05 * pulled.length);
     } else {
       EXPECT_LT(pulled.Length(), 0.5 * pulled.length);
@@ -176,14 +181,12 @@ TEST(MethodFor, RemovingOutliersLeavesEndsWhereTheyAre) {
 
 TEST(MethodFor, FollowsASmoothPathByEachKindOfLine) {
   const SyntheticWorld world = MakeSyntheticWorld(600, 120);
-  for (const auto parametrization : kParametrizations) {
-    for (const auto residual : kResiduals) {
+  for (const auto& residuals : kResiduals) {
+    for (const std::string& residual : residuals) {
       SlamOptions options = SyntheticRun::InlineOptions();
-      options.lines.parametrization = parametrization;
       options.lines.residual = residual;
-      options.lines.method = MethodFor(options.lines);
-      options.cutting.method = CuttingMethod::kGreedy;
-      SyntheticRun run(world, options);
+      options.cutting.method = "greedy";
+      SyntheticRun run(world, options, {.line_method = MethodFor});
       for (int i = 0; i <= 30; ++i) {
         const TrackingResult result = run.Step(PoseOnPath(i), {});
         ASSERT_TRUE(result.cam_from_world) << i;

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/initialization/two_view.h"
+#include "lab/rivals/two_view.h"
 
+#include "lab/rivals/start_steps.h"
 #include "plumbline/base/chi2.h"
 #include "plumbline/base/index.h"
 #include "plumbline/base/units.h"
 #include "plumbline/solvers/epipolar_cost.h"
 #include "plumbline/solvers/essential.h"
 #include "plumbline/solvers/homography.h"
-#include "plumbline/solvers/parallax.h"
 #include "plumbline/solvers/ransac.h"
 
 #include <algorithm>

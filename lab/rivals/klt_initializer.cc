@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/initialization/klt_initializer.h"
+#include "lab/rivals/klt_initializer.h"
 
+#include "lab/rivals/start_steps.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/index.h"
 #include "plumbline/base/random.h"
 #include "plumbline/initialization/initial_map.h"
 #include "plumbline/initialization/track_factorization.h"
-#include "plumbline/solvers/parallax.h"
 #include "plumbline/solvers/relative_pose.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/initialization/two_view.h"
+#include "lab/rivals/two_view.h"
 
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/epipolar.h"

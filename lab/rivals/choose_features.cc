@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/line_cutting/choose_features.h"
+#include "lab/rivals/choose_features.h"
 
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
-#include "plumbline/line_cutting/cut_lines.h"
 #include "plumbline/line_cutting/pose_information.h"
 #include "plumbline/line_cutting/single_line.h"
 
@@ -32,8 +31,7 @@ double GainOf(const Eigen::LLT<Matrix6d>& rest, const Rows& rows, const Weight& 
 }
 
 bool CutsLines(CuttingMethod method) {
-  return method != CuttingMethod::kNone && method != CuttingMethod::kTrim &&
-         method != CuttingMethod::kDrop;
+  return method != CuttingMethod::kNone && method != CuttingMethod::kDrop;
 }
 
 // A point, or a line with its best cut, as of the last time it was looked at.
@@ -52,12 +50,12 @@ class GreedyChoice {
  public:
   GreedyChoice(const CuttingProblem& problem,
                std::span<const PointRows> points,
-               const CuttingOptions& options)
-      : problem_(problem), points_(points), information_(options.information) {
+               const CuttingRecipe& recipe)
+      : problem_(problem), points_(points), information_(recipe.information) {
     if (information_ == CuttingInformation::kPrinted) {
       information_ = CuttingInformation::kIndependent;
     }
-    cuts_ = CutsLines(options.method);
+    cuts_ = CutsLines(recipe.method);
   }
 
   // Fills `choice`. On entry it says which lines may be chosen.
@@ -122,25 +120,16 @@ class GreedyChoice {
 
 }  // namespace
 
-Matrix6d SumPoints(std::span<const PointRows> points, const std::vector<bool>& used) {
-  PLUMBLINE_CHECK(used.empty() || used.size() == points.size(), "one mark for each point");
-  Matrix6d sum = Matrix6d::Zero();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (used.empty() || used[i]) sum.noalias() += points[i].transpose() * points[i];
-  }
-  return sum;
-}
-
 void CutChosen(const CuttingProblem& problem,
                std::span<const PointRows> points,
-               const CuttingOptions& options,
+               const CuttingRecipe& recipe,
                ChosenFeatures& choice) {
   CuttingProblem chosen{problem.camera, {}, problem.other_information};
   chosen.other_information += SumPoints(points, choice.points);
   for (std::size_t i = 0; i < choice.lines.size(); ++i) {
     if (choice.lines[i].used) chosen.lines.push_back(problem.lines[i]);
   }
-  const std::vector<LineCut> cuts = CutLines(chosen, options);
+  const std::vector<LineCut> cuts = CutLinesBy(recipe, chosen);
   auto cut = cuts.begin();
   for (LineCut& line : choice.lines) {
     if (line.used) line = *cut++;
@@ -150,19 +139,19 @@ void CutChosen(const CuttingProblem& problem,
 ChosenFeatures ChooseFeatures(const CuttingProblem& problem,
                               std::span<const PointRows> points,
                               std::size_t budget,
-                              const CuttingOptions& options) {
+                              const CuttingRecipe& recipe) {
   if (budget >= points.size() + problem.lines.size()) {
     CuttingProblem all = problem;
     all.other_information += SumPoints(points);
-    return {std::vector<bool>(points.size(), true), CutLines(all, options)};
+    return {std::vector<bool>(points.size(), true), CutLinesBy(recipe, all)};
   }
-  ChosenFeatures choice{std::vector<bool>(points.size(), false),
-                        std::vector<LineCut>(problem.lines.size())};
-  if (options.method == CuttingMethod::kDrop) choice.lines = CutLines(problem, options);
-  GreedyChoice(problem, points, options).Run(budget, choice);
-  const bool cut_already = options.method == CuttingMethod::kGreedy &&
-                           options.information != CuttingInformation::kPrinted;
-  if (CutsLines(options.method) && !cut_already) CutChosen(problem, points, options, choice);
+  ChosenFeatures choice{
+      std::vector<bool>(points.size(), false), std::vector<LineCut>(problem.lines.size()), false};
+  if (recipe.method == CuttingMethod::kDrop) choice.lines = CutLinesBy(recipe, problem);
+  GreedyChoice(problem, points, recipe).Run(budget, choice);
+  const bool cut_already =
+      recipe.method == CuttingMethod::kGreedy && recipe.information != CuttingInformation::kPrinted;
+  if (CutsLines(recipe.method) && !cut_already) CutChosen(problem, points, recipe, choice);
   return choice;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/slam/options.h"
+#include "plumbline/slam/system_methods.h"
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
@@ -8,23 +8,12 @@
 #include <fmt/format.h>
 
 namespace plumbline {
-namespace {
 
-template <class Value>
-void CheckLineMethod(const char* option, Value asked, Value done) {
-  if (asked == done) return;
-  throw InputError(
-      fmt::format("lines.{}: {} needs a build of plumbline with the laboratory; configure with "
-                  "-DPLUMBLINE_LAB=ON",
-                  option,
-                  NameOf(asked)));
-}
+void CheckOptions(const SlamOptions& options) { CheckOptions(options, {}); }
 
-}  // namespace
-
-void CheckOptions(const SlamOptions& options) {
+void CheckOptions(const SlamOptions& options, const SystemMethods& methods) {
   SlamOptions copy = options;  // the table needs references to options that may be changed
-  OptionTable(copy).CheckRanges();
+  OptionTable(copy, methods.added).CheckRanges();
   const FeatureOptions& f = options.features;
   if (!(f.points && f.point_count > 0) && !(f.lines && f.line_count > 0)) {
     throw InputError(
@@ -46,13 +35,12 @@ void CheckOptions(const SlamOptions& options) {
         keyframes.max_frames,
         keyframes.min_frames));
   }
-  const LineOptions& lines = options.lines;
-  CheckLineMethod("parametrization", lines.parametrization, lines.method.parametrization);
-  if (options.tracking.reference != TrackingReference::kLastFrame) {
-    CheckLineMethod("residual", lines.residual, lines.method.residual);
-  }
-  if (lines.reconstruction != LineReconstruction::kCheckedNView) {
-    CheckLineMethod("reconstruction", lines.reconstruction, lines.method.reconstruction);
+  if (options.tracking.reference != TrackingReference::kLastFrame &&
+      methods.line_method(options.lines).only_odometry) {
+    throw InputError(fmt::format(
+        "lines.residual: {} needs tracking.reference last_frame, found local_map; maps are "
+        "adjusted by other residuals",
+        options.lines.residual));
   }
 }
 

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/line_cutting/choose_features.h"
+#include "lab/rivals/choose_features.h"
 
-#include "plumbline/line_cutting/cut_lines.h"
 #include "plumbline/line_cutting/pose_information.h"
 
 #include "tests/line_cutting/random_points.h"
@@ -103,7 +102,7 @@ TEST(ChooseFeatures, IsNearTheBestOfAllSubsets) {
     const double whole = scene.Value(ChooseFeatures(scene.problem, scene.points, kBudget, {}));
     EXPECT_LE(whole, best + 1e-9);
     EXPECT_GT(whole, best - 1);
-    const CuttingOptions cut{CuttingMethod::kGreedySweeps};
+    const CuttingRecipe cut{CuttingMethod::kGreedySweeps};
     EXPECT_GT(scene.Value(ChooseFeatures(scene.problem, scene.points, kBudget, cut)), whole);
   }
 }
@@ -123,10 +122,10 @@ TEST(ChooseFeatures, UsesAllWhereThereIsNotMoreThanTheBudget) {
   const Scene scene = RandomScene(4, 7, 6);
   CuttingProblem with_points = scene.problem;
   with_points.other_information += SumPoints(scene.points);
-  const CuttingOptions greedy{CuttingMethod::kGreedy};
+  const CuttingRecipe greedy{CuttingMethod::kGreedy};
   const ChosenFeatures choice = ChooseFeatures(scene.problem, scene.points, 13, greedy);
   EXPECT_EQ(choice.points, std::vector<bool>(7, true));
-  EXPECT_EQ(choice.lines, CutLines(with_points, greedy));
+  EXPECT_EQ(choice.lines, CutLinesBy(greedy, with_points));
 }
 
 TEST(ChooseFeatures, LeavesOutWhatSaysLittle) {
@@ -145,7 +144,7 @@ TEST(ChooseFeatures, DroppedLinesAreNotChosen) {
   Scene scene = RandomScene(6, 4, 10);
   scene.problem.lines[4].start_covariance *= 1e4;
   scene.problem.lines[4].end_covariance *= 1e4;
-  const CuttingOptions drop{.method = CuttingMethod::kDrop, .drop_share = 0.1};
+  const CuttingRecipe drop{.method = CuttingMethod::kDrop, .drop_share = 0.1};
   const ChosenFeatures choice = ChooseFeatures(scene.problem, scene.points, 13, drop);
   EXPECT_EQ(CountUsed(choice), 13U);
   EXPECT_FALSE(choice.lines[4].used);

@@ -1,16 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/line_method.h"
+#include "apps/program_methods.h"
 
 #ifdef PLUMBLINE_WITH_LAB
-#include "lab/line_rivals/rival_method.h"
+#include "lab/rivals/laboratory_methods.h"
 #endif
 
 namespace plumbline {
 
-void ChooseLineMethod([[maybe_unused]] SlamOptions& options) {
+const SystemMethods& ProgramMethods() {
 #ifdef PLUMBLINE_WITH_LAB
-  options.lines.method = MethodFor(options.lines);
+  return LaboratoryMethods();
+#else
+  static const SystemMethods methods;
+  return methods;
 #endif
 }
 

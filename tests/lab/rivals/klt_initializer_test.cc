@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/initialization/klt_initializer.h"
+#include "lab/rivals/klt_initializer.h"
 
 #include "plumbline/base/error.h"
 

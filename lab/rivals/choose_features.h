@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/line_cutting/cutting_problem.h"
+#include "lab/rivals/cutting_methods.h"
+#include "plumbline/line_cutting/cut_lines.h"
 
 #include <cstddef>
 #include <span>
@@ -11,15 +12,6 @@
 #include <Eigen/Core>
 
 namespace plumbline {
-
-// Linearized point for the pose: the derivatives of its whitened residuals (2, or 3 with a
-// disparity) with respect to the left perturbation exp([rotation, translation]).
-using PointRows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, 3, 6>;
-
-struct ChosenFeatures {
-  std::vector<bool> points;    // true for each point in use
-  std::vector<LineCut> lines;  // LineCut::used, and the cut of each line
-};
 
 // Returns the `budget` features, points and lines together, that maximize the pose information: the
 // joint problem that the second paper names as future work (section 7).
@@ -33,21 +25,18 @@ struct ChosenFeatures {
 // greedy_sweeps and joint cut the chosen lines again. The printed information is not additive over
 // features, so that the choice then uses the independent one.
 //
-// If the budget is not less than the number of features, all are chosen, and cut as by CutLines.
+// If the budget is not less than the number of features, all are chosen, and cut as by CutLinesBy.
 // Deterministic: of equal gains points come first, then the given order.
 //   cost: 40 of 200 points and 60 lines 0.7 ms, with greedy cuts 1.2 ms
 ChosenFeatures ChooseFeatures(const CuttingProblem& problem,
                               std::span<const PointRows> points,
                               std::size_t budget,
-                              const CuttingOptions& options);
+                              const CuttingRecipe& recipe);
 
-// Cuts the chosen lines again, as by CutLines, with the chosen points as the constant part.
+// Cuts the chosen lines again, as by CutLinesBy, with the chosen points as the constant part.
 void CutChosen(const CuttingProblem& problem,
                std::span<const PointRows> points,
-               const CuttingOptions& options,
+               const CuttingRecipe& recipe,
                ChosenFeatures& choice);
-
-// Returns the sum of rows^T rows over the points in use (all points if `used` is empty).
-Matrix6d SumPoints(std::span<const PointRows> points, const std::vector<bool>& used = {});
 
 }  // namespace plumbline
