@@ -115,7 +115,7 @@ class LiveKeyFrames {
         setup_.frames == 0 ? count : std::min(count, setup_.from + setup_.frames);
     for (std::size_t i = setup_.from; i < end; ++i) {
       Measured frame{dataset_->stamp_ns(i), nullptr};
-      if (auto read = dataset_->Read(i)) frame.indexed = system.Measure(*std::move(read)).indexed;
+      if (auto read = dataset_->Read(i)) frame.indexed = system.Extract(*std::move(read)).indexed;
       frames_.push_back(std::move(frame));
     }
   }
@@ -125,11 +125,11 @@ class LiveKeyFrames {
       system.Skip(frame.stamp_ns, "unreadable");
       return;
     }
-    ExtractedFrame measured;
-    measured.stamp_ns = frame.stamp_ns;
-    measured.indexed = frame.indexed;
-    measured.shed = shed;
-    system.Track(std::move(measured));
+    ExtractedFrame extracted;
+    extracted.stamp_ns = frame.stamp_ns;
+    extracted.indexed = frame.indexed;
+    extracted.shed = shed;
+    system.Track(std::move(extracted));
     system.Complete();
   }
 

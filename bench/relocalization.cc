@@ -161,29 +161,29 @@ class Experiment {
 
   Tally Measure(const SlamOptions& options, const std::vector<std::size_t>& starts) const {
     Tally tally;
-    std::map<std::size_t, ExtractedFrame> measured;
+    std::map<std::size_t, ExtractedFrame> extracted;
     const System front_end(sequence_.calibration(), options);
     for (const std::size_t start : starts) {
       for (std::size_t i = start; i < start + kFrames; ++i) {
-        if (measured.contains(i)) continue;
+        if (extracted.contains(i)) continue;
         const auto frame = sequence_.Read(i);
-        if (frame) measured.emplace(i, front_end.Measure(*frame));
+        if (frame) extracted.emplace(i, front_end.Extract(*frame));
       }
     }
-    for (const std::size_t start : starts) Begin(options, start, measured, tally);
+    for (const std::size_t start : starts) Begin(options, start, extracted, tally);
     return tally;
   }
 
  private:
   void Begin(const SlamOptions& options,
              std::size_t start,
-             const std::map<std::size_t, ExtractedFrame>& measured,
+             const std::map<std::size_t, ExtractedFrame>& extracted,
              Tally& tally) const {
     System system(sequence_.calibration(), options);
     system.Continue(saved_, true);
     const double before = CpuSeconds();
-    for (std::size_t i = start; i < start + kFrames && measured.contains(i); ++i) {
-      const FrameRecord& record = system.Track(measured.at(i));
+    for (std::size_t i = start; i < start + kFrames && extracted.contains(i); ++i) {
+      const FrameRecord& record = system.Track(extracted.at(i));
       if (!record.causal_world_from_camera) continue;
       tally.cpu_s += CpuSeconds() - before;
       tally.frames.push_back(static_cast<double>(i - start + 1));

@@ -104,10 +104,10 @@ std::shared_ptr<const TrueDepth> SequenceTruth::DepthFromImage(DepthImage depth)
 }
 
 std::shared_ptr<const TrueDepth> SequenceTruth::DepthFromStereo(SensorFrame frame) const {
-  const ExtractedFrame measured = stereo_->Measure(std::move(frame));
+  const ExtractedFrame extracted = stereo_->Extract(std::move(frame));
   const Rectifier& pair = stereo_->rectifier();
   return std::make_shared<TrueDepthOfPoints>(
-      TrueDepthOfStereo(measured.indexed->features,
+      TrueDepthOfStereo(extracted.indexed->features,
                         pair.camera(),
                         rectified_from_raw_ * pair.rectified_left_from_left().conjugate(),
                         camera_));

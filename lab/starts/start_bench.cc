@@ -12,29 +12,29 @@
 namespace plumbline {
 namespace {
 
-// Frames with their features, measured when first asked for.
-class MeasuredFrames {
+// Frames with their features, extracted when first asked for.
+class ExtractedFrames {
  public:
-  MeasuredFrames(const Dataset& dataset, const FrontEnd& front_end)
+  ExtractedFrames(const Dataset& dataset, const FrontEnd& front_end)
       : dataset_(dataset), front_end_(front_end) {}
 
   std::optional<InitializationFrame> Get(int index) {
     const auto known = frames_.find(index);
     if (known != frames_.end()) return known->second;
-    return frames_.emplace(index, Measure(index)).first->second;
+    return frames_.emplace(index, Extract(index)).first->second;
   }
 
   void ForgetBefore(int index) { frames_.erase(frames_.begin(), frames_.lower_bound(index)); }
 
  private:
-  std::optional<InitializationFrame> Measure(int index) const {
+  std::optional<InitializationFrame> Extract(int index) const {
     auto read = dataset_.Read(static_cast<std::size_t>(index));
     if (!read) return std::nullopt;
-    ExtractedFrame measured = front_end_.Measure(*read);
+    ExtractedFrame extracted = front_end_.Extract(*read);
     return InitializationFrame{FrameId{index},
-                               measured.stamp_ns,
-                               std::move(measured.indexed),
-                               std::make_shared<const GrayImage>(std::move(measured.images.left))};
+                               extracted.stamp_ns,
+                               std::move(extracted.indexed),
+                               std::make_shared<const GrayImage>(std::move(extracted.images.left))};
   }
 
   const Dataset& dataset_;
@@ -74,12 +74,12 @@ StartResults RunStarts(const Dataset& mono,
   const FrontEnd front_end(mono.calibration(), options.features);
   const SequenceTruth truth(mono, front_end.rectifier(), camera, plan.poses);
   const CameraAndPyramid imaging{front_end.rectifier().camera(), options.features.orb.scale_factor};
-  MeasuredFrames measured(mono, front_end);
-  const StartFrames frames = [&measured](int index) { return measured.Get(index); };
+  ExtractedFrames extracted(mono, front_end);
+  const StartFrames frames = [&extracted](int index) { return extracted.Get(index); };
   const StartTask task{frames, truth, imaging.camera, plan.limits, plan.on_map};
   StartResults results;
   for (const int first : plan.frames) {
-    measured.ForgetBefore(first);
+    extracted.ForgetBefore(first);
     const auto initializer = make_initializer(imaging);
     results.records.push_back(TryStart(
         RangeOf(mono, first, plan.seconds, plan.patience), task, *initializer, results.add_ms));

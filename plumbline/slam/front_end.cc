@@ -51,23 +51,23 @@ std::shared_ptr<const FrameFeatures> FrontEnd::WithRightLines(
                                                   indexed->features.lines));
 }
 
-ExtractedFrame FrontEnd::Measure(SensorFrame frame, StageClock clock, LoadLevel shed) const {
-  ExtractedFrame measured;
-  measured.shed = shed;
-  measured.stamp_ns = frame.stamp_ns;
-  measured.images = rectifier_.Apply(std::move(frame), helper_.get());
+ExtractedFrame FrontEnd::Extract(SensorFrame frame, StageClock clock, LoadLevel shed) const {
+  ExtractedFrame extracted;
+  extracted.shed = shed;
+  extracted.stamp_ns = frame.stamp_ns;
+  extracted.images = rectifier_.Apply(std::move(frame), helper_.get());
   clock.Done("rectify");
   const RectifiedCamera& camera = rectifier_.camera();
   ImagePyramid pyramid;
   Features features = ExtractFeatures(
-      camera, InputOf(measured.images), ReducedOptions(options_, shed), helper_.get(), &pyramid);
-  measured.indexed = IndexFeatures(camera, std::move(features));
+      camera, InputOf(extracted.images), ReducedOptions(options_, shed), helper_.get(), &pyramid);
+  extracted.indexed = IndexFeatures(camera, std::move(features));
   if (camera.baseline == 0) {
-    measured.left_pyramid = std::make_shared<const ImagePyramid>(std::move(pyramid));
+    extracted.left_pyramid = std::make_shared<const ImagePyramid>(std::move(pyramid));
   }
   clock.Done("features");
-  measured.clock = std::move(clock);
-  return measured;
+  extracted.clock = std::move(clock);
+  return extracted;
 }
 
 }  // namespace plumbline

@@ -23,13 +23,13 @@ class FrontEnd {
   // Rectifies the images and extracts features. Throws InputError if the size of an image differs
   // from the calibration. Thread-safe; the same frame gives the same features. With `shed`, fewer
   // lines or points are extracted.
-  ExtractedFrame Measure(SensorFrame frame,
+  ExtractedFrame Extract(SensorFrame frame,
                          StageClock clock = {},
                          LoadLevel shed = LoadLevel::kNothing) const;
 
   // Returns the features with the positions of the lines in the right image, which new line
   // landmarks need. Features that have these positions already are returned unchanged. The features
-  // may have been corrected since their extraction. `shed` is that of Measure.
+  // may have been corrected since their extraction. `shed` is that of Extract.
   std::shared_ptr<const FrameFeatures> WithRightLines(
       const RectifiedFrame& images,
       LoadLevel shed,

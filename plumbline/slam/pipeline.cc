@@ -35,7 +35,7 @@ void Pipeline::Feed(SensorFrame frame) {
     if (last_stamp_ns_) job.interval = 1e-9 * static_cast<double>(job.stamp_ns - *last_stamp_ns_);
     last_stamp_ns_ = job.stamp_ns;
   } else {
-    job.measured = system_.Measure(std::move(frame));
+    job.extracted = system_.Extract(std::move(frame));
   }
   Hand(std::move(job));
 }
@@ -107,9 +107,9 @@ void Pipeline::Process(Job job) {
   if (job.raw) {
     job.clock.Done("wait");
     const LoadLevel shed = Decide(job);
-    job.measured = system_.Measure(std::move(*job.raw), std::move(job.clock), shed);
+    job.extracted = system_.Extract(std::move(*job.raw), std::move(job.clock), shed);
   }
-  const FrameRecord& record = system_.Track(std::move(*job.measured));
+  const FrameRecord& record = system_.Track(std::move(*job.extracted));
   observer_(record, system_.view());
   system_.Complete();
 }

@@ -83,7 +83,7 @@ class Pipeline {
   // A frame waiting for tracking: with features, raw (live), or without images because of `reason`.
   struct Job {
     std::int64_t stamp_ns = 0;
-    std::optional<ExtractedFrame> measured;
+    std::optional<ExtractedFrame> extracted;
     std::optional<SensorFrame> raw;
     StageClock clock;  // times a raw frame since its arrival
     Execution::Clock::time_point arrival;

@@ -112,43 +112,45 @@ void System::CheckImages(const SensorFrame& frame) const {
   }
 }
 
-ExtractedFrame System::Measure(SensorFrame frame, StageClock clock, LoadLevel shed) const {
+ExtractedFrame System::Extract(SensorFrame frame, StageClock clock, LoadLevel shed) const {
   CheckImages(frame);
-  return front_end_.Measure(std::move(frame), std::move(clock), shed);
+  return front_end_.Extract(std::move(frame), std::move(clock), shed);
 }
 
 const FrameRecord& System::Process(SensorFrame frame) {
-  Track(Measure(std::move(frame)));
+  Track(Extract(std::move(frame)));
   Complete();
   return newest_;
 }
 
-const FrameRecord& System::Track(ExtractedFrame measured) {
+const FrameRecord& System::Track(ExtractedFrame extracted) {
   Complete();
-  CheckStamp(measured.stamp_ns);
-  if (session_.uuid == Uuid()) session_.uuid = SessionUuid(measured);
+  CheckStamp(extracted.stamp_ns);
+  if (session_.uuid == Uuid()) session_.uuid = SessionUuid(extracted);
   FrameRecord record;
   record.id = FrameId{static_cast<std::int64_t>(frames_.size())};
-  record.stamp_ns = measured.stamp_ns;
-  record.shed = measured.shed;
-  mapping_.Lighten(measured.shed);
-  StageClock clock = std::move(measured.clock);
+  record.stamp_ns = extracted.stamp_ns;
+  record.shed = extracted.shed;
+  mapping_.Lighten(extracted.shed);
+  StageClock clock = std::move(extracted.clock);
   clock.Done("wait");  // time until tracking began with the frame
 
   const bool start = monocular_initialization_ && tracker_.state() == TrackerState::kInitializing;
   TrackingResult result =
-      start ? OfferToStart(measured, record) : FollowMap(measured, record, clock);
+      start ? OfferToStart(extracted, record) : FollowMap(extracted, record, clock);
   clock.Done(start ? "initialize" : "track");
   record.times = clock.Finish();
-  view_ = {std::move(measured.images), result.frame};
+  view_ = {std::move(extracted.images), result.frame};
   if (!start) {
     unfinished_ = std::make_unique<UnfinishedFrame>(
-        UnfinishedFrame{std::move(result), measured.shed, std::move(measured.left_pyramid)});
+        UnfinishedFrame{std::move(result), extracted.shed, std::move(extracted.left_pyramid)});
   }
   return Keep(std::move(record));
 }
 
-TrackingResult System::FollowMap(ExtractedFrame& measured, FrameRecord& record, StageClock& clock) {
+TrackingResult System::FollowMap(ExtractedFrame& extracted,
+                                 FrameRecord& record,
+                                 StageClock& clock) {
   const auto due = mapping_.SnapshotFor(record.id.value);
   clock.Done("map");
   for (const StageTime& time : TakeMappingTimes()) clock.Add(time.stage, time.milliseconds);
@@ -158,14 +160,15 @@ TrackingResult System::FollowMap(ExtractedFrame& measured, FrameRecord& record, 
       tracker_.state() == TrackerState::kLost ? mapping_.EarlierSnapshot() : nullptr;
   if (snapshot != nullptr) map_ = snapshot->map;
   if (tracker_.NeedsRightLines()) {
-    measured.indexed = front_end_.WithRightLines(measured.images, measured.shed, measured.indexed);
+    extracted.indexed =
+        front_end_.WithRightLines(extracted.images, extracted.shed, extracted.indexed);
     clock.Done("right_lines");
   }
   TrackingResult result = tracker_.Track(record.id,
                                          record.stamp_ns,
-                                         std::move(measured.indexed),
+                                         std::move(extracted.indexed),
                                          snapshot.get(),
-                                         {earlier.get(), FeatureShare(measured.shed)});
+                                         {earlier.get(), FeatureShare(extracted.shed)});
   record.keyframe = result.keyframe.has_value();
   if (result.starts_map) map_ = MapId{next_map_++};
   RecordTracking(result, record);
@@ -295,8 +298,8 @@ SessionId System::session_id() const {
 
 // Offers a frame of a single camera that has no map yet to the start of one. Most frames start
 // none.
-TrackingResult System::OfferToStart(const ExtractedFrame& measured, FrameRecord& record) {
-  const InitializationResult start = monocular_initialization_->Offer(record.id, measured);
+TrackingResult System::OfferToStart(const ExtractedFrame& extracted, FrameRecord& record) {
+  const InitializationResult start = monocular_initialization_->Offer(record.id, extracted);
   if (start.map) return StartFrom(*start.map, record);
   record.status = StatusWithoutPose();
   record.reason = NameOf(start.wait);
@@ -304,9 +307,9 @@ TrackingResult System::OfferToStart(const ExtractedFrame& measured, FrameRecord&
   TrackingResult result;
   result.frame.id = record.id;
   result.frame.stamp_ns = record.stamp_ns;
-  result.frame.indexed = measured.indexed;
-  result.frame.points.resize(measured.indexed->features.points.size());
-  result.frame.lines.resize(measured.indexed->features.lines.size());
+  result.frame.indexed = extracted.indexed;
+  result.frame.points.resize(extracted.indexed->features.points.size());
+  result.frame.lines.resize(extracted.indexed->features.lines.size());
   return result;
 }
 

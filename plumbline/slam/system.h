@@ -55,7 +55,7 @@ struct FrameView {
 // Poses are world_from_camera of the left camera as delivered (before rectification). The world is
 // that camera at the first keyframe of each map; its unit is the metre if depth is measured,
 // otherwise arbitrary. slam.mode sets how mapping runs beside tracking (MapperThread); Pipeline
-// (pipeline.h) adds a thread for tracking, and feeds live runs. Not thread-safe, except Measure.
+// (pipeline.h) adds a thread for tracking, and feeds live runs. Not thread-safe, except Extract.
 class System {
  public:
   // Makes a system without a map. It copies all arguments.
@@ -100,16 +100,16 @@ class System {
   // their results. It is called in the mapping thread. To be called before the first frame.
   void Observe(std::function<void(const Atlas&, const LoopAttempt&)> observer);
 
-  // Processes a frame and returns its record: Measure, Track and Complete in one call. The result
+  // Processes a frame and returns its record: Extract, Track and Complete in one call. The result
   // is valid until the next frame. Throws InputError if an image is missing or its size differs
   // from the calibration, or if the frame is no later than the one before.
   const FrameRecord& Process(SensorFrame frame);
   // Does the part of the work that needs no earlier frame, in any thread; see FrontEnd. Throws
   // InputError if an image is missing or its size differs from the calibration.
-  ExtractedFrame Measure(SensorFrame frame,
+  ExtractedFrame Extract(SensorFrame frame,
                          StageClock clock = {},
                          LoadLevel shed = LoadLevel::kNothing) const;
-  // Throws InputError if an image is missing that the calibration requires. Measure calls it.
+  // Throws InputError if an image is missing that the calibration requires. Extract calls it.
   void CheckImages(const SensorFrame& frame) const;
   // Tracks a frame with features and returns its record; valid until the next frame. The pose is
   // returned as soon as it is known: Complete does the remaining work for the map. Throws
@@ -230,11 +230,11 @@ class System {
   void Relocalize(const TrackingResult& result);
   // Returns the number of this run among the sessions of the maps.
   SessionId session_id() const;
-  TrackingResult FollowMap(ExtractedFrame& measured, FrameRecord& record, StageClock& clock);
+  TrackingResult FollowMap(ExtractedFrame& extracted, FrameRecord& record, StageClock& clock);
   void CompleteRightLines(UnfinishedFrame& unfinished, StageClock& clock);
   // Returns the times of mapping steps since the last call.
   std::vector<StageTime> TakeMappingTimes();
-  TrackingResult OfferToStart(const ExtractedFrame& measured, FrameRecord& record);
+  TrackingResult OfferToStart(const ExtractedFrame& extracted, FrameRecord& record);
   TrackingResult StartFrom(const InitialMap& initial, FrameRecord& record);
   void Demote(const DroppedKeyFrame& gone);
   FrameStatus StatusWithoutPose() const;

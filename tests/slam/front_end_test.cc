@@ -16,12 +16,12 @@
 namespace plumbline {
 namespace {
 
-TEST(FrontEnd, MeasuresPointsAndLinesWithDisparities) {
+TEST(FrontEnd, ExtractsPointsAndLinesWithDisparities) {
   const FrontEnd front_end(MovingPoster::MakeCalibration(), {});
-  const ExtractedFrame measured = front_end.Measure(MovingPoster().Frame(2));
-  EXPECT_EQ(measured.stamp_ns, MovingPoster::StampNs(2));
-  EXPECT_EQ(measured.images.left.width(), MovingPoster::kWidth);
-  const Features& features = measured.indexed->features;
+  const ExtractedFrame extracted = front_end.Extract(MovingPoster().Frame(2));
+  EXPECT_EQ(extracted.stamp_ns, MovingPoster::StampNs(2));
+  EXPECT_EQ(extracted.images.left.width(), MovingPoster::kWidth);
+  const Features& features = extracted.indexed->features;
   EXPECT_GT(features.lines.size(), 20U);
   int near = 0;
   for (const auto& disparity : features.point_disparity) {
@@ -32,34 +32,34 @@ TEST(FrontEnd, MeasuresPointsAndLinesWithDisparities) {
 
 TEST(FrontEnd, FindsLinesInTheRightImageWhenAsked) {
   const FrontEnd front_end(MovingPoster::MakeCalibration(), {});
-  const ExtractedFrame measured = front_end.Measure(MovingPoster().Frame(2));
+  const ExtractedFrame extracted = front_end.Extract(MovingPoster().Frame(2));
   const auto found = [](const FrameFeatures& indexed) {
     const auto& right = indexed.features.line_right;
     return std::count_if(right.begin(), right.end(), [](const auto& r) { return r.has_value(); });
   };
-  EXPECT_EQ(found(*measured.indexed), 0);
-  const auto whole = front_end.WithRightLines(measured.images, measured.shed, measured.indexed);
-  EXPECT_EQ(found(*measured.indexed), 0);  // a copy
+  EXPECT_EQ(found(*extracted.indexed), 0);
+  const auto whole = front_end.WithRightLines(extracted.images, extracted.shed, extracted.indexed);
+  EXPECT_EQ(found(*extracted.indexed), 0);  // a copy
   ASSERT_EQ(whole->features.line_right.size(), whole->features.lines.size());
   EXPECT_GT(found(*whole), 15);
-  EXPECT_EQ(whole->features.points.size(), measured.indexed->features.points.size());
-  EXPECT_EQ(front_end.WithRightLines(measured.images, measured.shed, whole), whole);
+  EXPECT_EQ(whole->features.points.size(), extracted.indexed->features.points.size());
+  EXPECT_EQ(front_end.WithRightLines(extracted.images, extracted.shed, whole), whole);
 }
 
 TEST(FrontEnd, KeepsThePyramidOfASingleCamera) {
   Calibration calibration = MovingPoster::MakeCalibration();
-  EXPECT_EQ(FrontEnd(calibration, {}).Measure(MovingPoster().Frame(2)).left_pyramid, nullptr);
+  EXPECT_EQ(FrontEnd(calibration, {}).Extract(MovingPoster().Frame(2)).left_pyramid, nullptr);
   calibration.right.reset();
   SensorFrame frame = MovingPoster().Frame(2);
   frame.right.reset();
   FeatureOptions options;
   options.orb.scale_factor = 1.3;
-  const ExtractedFrame measured = FrontEnd(calibration, options).Measure(std::move(frame));
-  ASSERT_NE(measured.left_pyramid, nullptr);
-  const ImagePyramid anew = BuildOrbPyramid(measured.images.left, options.orb);
-  ASSERT_EQ(measured.left_pyramid->size(), anew.size());
+  const ExtractedFrame extracted = FrontEnd(calibration, options).Extract(std::move(frame));
+  ASSERT_NE(extracted.left_pyramid, nullptr);
+  const ImagePyramid anew = BuildOrbPyramid(extracted.images.left, options.orb);
+  ASSERT_EQ(extracted.left_pyramid->size(), anew.size());
   for (std::size_t i = 0; i < anew.size(); ++i) {
-    const PyramidLevel& level = (*measured.left_pyramid)[i];
+    const PyramidLevel& level = (*extracted.left_pyramid)[i];
     EXPECT_EQ(level.scale, anew[i].scale);
     ASSERT_EQ(level.image.width(), anew[i].image.width());
     ASSERT_EQ(level.image.height(), anew[i].image.height());
@@ -73,7 +73,7 @@ TEST(FrontEnd, KeepsThePyramidOfASingleCamera) {
 TEST(FrontEnd, GivesTheSameFeaturesInEveryThread) {
   const FrontEnd front_end(MovingPoster::MakeCalibration(), {});
   const MovingPoster poster;
-  const auto measure = [&] { return front_end.Measure(poster.Frame(1)); };
+  const auto measure = [&] { return front_end.Extract(poster.Frame(1)); };
   auto other = std::async(std::launch::async, measure);
   const ExtractedFrame a = measure();
   const ExtractedFrame b = other.get();
@@ -90,8 +90,8 @@ TEST(FrontEnd, ItsClockGoesOn) {
   const FrontEnd front_end(MovingPoster::MakeCalibration(), {});
   StageClock clock;
   clock.Done("wait");
-  ExtractedFrame measured = front_end.Measure(MovingPoster().Frame(0), clock);
-  const std::vector<StageTime> times = measured.clock.Finish();
+  ExtractedFrame extracted = front_end.Extract(MovingPoster().Frame(0), clock);
+  const std::vector<StageTime> times = extracted.clock.Finish();
   ASSERT_EQ(times.size(), 4U);
   EXPECT_EQ(times[0].stage, "wait");
   EXPECT_EQ(times[1].stage, "rectify");

@@ -13,11 +13,11 @@ namespace plumbline {
 namespace {
 
 ExtractedFrame MeasuredOf(const InitializationFrame& frame) {
-  ExtractedFrame measured;
-  measured.stamp_ns = frame.stamp_ns;
-  measured.images.left = GrayImage(8, 6);
-  measured.indexed = frame.indexed;
-  return measured;
+  ExtractedFrame extracted;
+  extracted.stamp_ns = frame.stamp_ns;
+  extracted.images.left = GrayImage(8, 6);
+  extracted.indexed = frame.indexed;
+  return extracted;
 }
 
 double ErrorMetres(const Rigid3& cam_from_world, FrameId frame) {

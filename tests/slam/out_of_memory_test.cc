@@ -198,7 +198,7 @@ TEST(OutOfMemory, TwoMapsAreJoinedWhollyOrNotAtAll) {
   atlas.active().CheckInvariants();
 }
 
-// A run over frames that are measured already; the features are not at stake.
+// A run over frames whose features are extracted already; the features are not at stake.
 class SmallRun {
  public:
   static constexpr int kFrames = 9;
@@ -244,7 +244,7 @@ TEST(OutOfMemory, ARunKeepsWhatItReported) {
     const SmallRun run;
     const MovingPoster poster;
     for (int i = 0; i < SmallRun::kFrames; ++i)
-      frames.push_back(run.system().Measure(poster.Frame(i)));
+      frames.push_back(run.system().Extract(poster.Frame(i)));
   }
   SmallRun whole;
   const std::int64_t before = done;

@@ -345,7 +345,7 @@ TEST(System, TellsThePoseBeforeTheKeyFrameIsHandedOn) {
   System told(MovingPoster::MakeCalibration(), SlamOptions{});
   System whole(MovingPoster::MakeCalibration(), SlamOptions{});
   for (int i = 0; i < 8; ++i) {
-    const FrameRecord pose = told.Track(told.Measure(poster.Frame(i)));
+    const FrameRecord pose = told.Track(told.Extract(poster.Frame(i)));
     EXPECT_EQ(CountStage(pose, "total"), 1);
     EXPECT_EQ(CountStage(pose, "after_keyframe"), 0);
     const FrameRecord& complete = whole.Process(poster.Frame(i));
