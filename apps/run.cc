@@ -285,12 +285,19 @@ std::vector<RunInput> InputsOf(const CommandLine& line, const Dataset& dataset) 
   return inputs;
 }
 
+// What is known of the map that is gone on in.
+struct LoadedMap {
+  std::size_t sessions = 0;        // that made it
+  std::vector<std::string> notes;  // System::Continue
+};
+
 // Reads the map that is to be gone on in, whole, before anything is written.
-std::vector<std::string> LoadMapInto(System& system, const RunSetup& setup) {
+LoadedMap LoadMapInto(System& system, const RunSetup& setup) {
   if (!setup.map) return {};
   SavedAtlas saved = LoadAtlas(*setup.map);
+  const std::size_t sessions = saved.context.sessions.size();
   try {
-    return system.Continue(std::move(saved), setup.localize);
+    return {sessions, system.Continue(std::move(saved), setup.localize)};
   } catch (const InputError& error) {
     throw InputError(setup.map->string() + ": " + error.what());
   }
@@ -309,7 +316,11 @@ void CheckRecording(const std::filesystem::path& file,
 }
 
 // Before anything is done: that there is somewhere to listen, and to record to.
-void OpenViewer(const CommandLine& line, const RunSetup& setup, System& system, RunFrames& input) {
+void OpenViewer(const CommandLine& line,
+                const RunSetup& setup,
+                const RectifiedCamera& camera,
+                const LoadedMap& loaded,
+                RunFrames& input) {
   if (!setup.view.access && !setup.view.record) return;
   if (setup.view.record) {
     if (const auto note = McapFileWriter::SetPartAside(*setup.view.record)) Say(*note);
@@ -317,12 +328,11 @@ void OpenViewer(const CommandLine& line, const RunSetup& setup, System& system, 
   ViewedRun run;
   run.name = input.dataset->info().name.empty() ? WithoutPassword(line.Positional(0))
                                                 : input.dataset->info().name;
-  run.camera = system.camera();
+  run.camera = camera;
   run.can_pause = input.live == nullptr;
   if (run.can_pause) run.frames_expected = input.frames.size();
-  const std::size_t sessions = system.loaded() ? system.loaded()->sessions.size() : 0;
   input.viewer = std::make_shared<Viewer>(
-      setup.view, std::move(run), SessionId{static_cast<std::int64_t>(sessions)});
+      setup.view, std::move(run), SessionId{static_cast<std::int64_t>(loaded.sessions)});
   if (setup.view.access && !setup.quiet) {
     std::clog << "plumbline: view at " << input.viewer->url() << '\n';
   }
@@ -356,10 +366,10 @@ void SayBefore(const Dataset& dataset,
 }
 
 // Records the frames of a live source, known at its end.
-void NoteFrames(const System& system, RunFrames& input) {
+void NoteFrames(const FrameLog& frames, RunFrames& input) {
   DatasetInfo info = input.live->info();
-  for (std::size_t i = 0; i < system.frames().size(); ++i) {
-    info.stamps_ns.push_back(system.frames()[i].stamp_ns);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    info.stamps_ns.push_back(frames.StampOf(i));
     input.frames.push_back(i);
   }
   input.dataset = std::make_shared<PassedFrames>(std::move(info));
@@ -372,19 +382,19 @@ std::vector<std::string> ToBeShown(std::span<const std::string> arguments) {
 }
 
 // Prints the result, for whoever still listens.
-void Print(const System& system, const Dataset& dataset, const std::filesystem::path& folder) {
+void Print(const RunResult& result, const Dataset& dataset, const std::filesystem::path& folder) {
   errno = 0;
-  PrintResult(system, dataset, folder.string());
+  PrintResult(result, dataset, folder.string());
   if (!std::cout.flush() && errno == EPIPE) std::cout.clear();
 }
 
 // Shows the finished run until a signal comes, and answers requests about its maps. Returns at once
 // if a signal has ended the run.
-void KeepShowing(const CommandLine& line, const System& system, Viewer& viewer, bool quiet) {
+void KeepShowing(const CommandLine& line, const RunResult& result, Viewer& viewer, bool quiet) {
   if (!line.Has("--stay") || FirstStopSignal()) return;
   if (!quiet) std::clog << "plumbline: the view stays at " << viewer.url() << " (Ctrl-C ends it)\n";
   while (!StopRequested() && !viewer.TakeFailure()) {
-    if (viewer.WantsMaps(false)) viewer.ReadMaps(system.atlas(), system.events());
+    if (viewer.WantsMaps(false)) viewer.ReadMaps(result.atlas, result.events);
     std::this_thread::sleep_for(kLookStep);
   }
 }
@@ -418,23 +428,23 @@ int RunCommand(std::span<const std::string> arguments) {
   CheckApart(setup.folder, inputs);
   if (setup.view.record) CheckRecording(*setup.view.record, setup.folder, inputs);
   System system(input.dataset->calibration(), setup.options, {}, ProgramMethods());
-  system.DescribeSession(PLUMBLINE_VERSION);
-  const std::vector<std::string> map_notes = LoadMapInto(system, setup);
+  const LoadedMap loaded = LoadMapInto(system, setup);
   RunFolder folder(setup.folder);
-  OpenViewer(line, setup, system, input);
+  OpenViewer(line, setup, system.rectifier().camera(), loaded, input);
   WriteOptions(setup, folder);
   IgnoreBrokenPipes();
   if (!setup.quiet) SayUnused(line, *input.dataset);
   if (!setup.quiet) SayWithoutEffect(setup, *input.dataset);
-  SayBefore(*input.dataset, folder, map_notes, setup.quiet);
+  SayBefore(*input.dataset, folder, loaded.notes, setup.quiet);
   CatchStopSignals();
   KeptViews views(input);
   const Processed processed = ProcessFrames(input, setup.quiet, system, folder, views);
-  if (system.frames().empty() && FirstStopSignal()) {
+  const RunResult& result = processed.result;
+  if (result.frames.empty() && FirstStopSignal()) {
     std::clog << "plumbline: stopped before the first frame; nothing is written\n";
     return FirstStopSignal()->exit_code;
   }
-  if (input.live != nullptr) NoteFrames(system, input);
+  if (input.live != nullptr) NoteFrames(result.frames, input);
   const Dataset& dataset = *input.dataset;
   RunDescription description{PLUMBLINE_VERSION,
                              WithoutPassword(line.Positional(0)),
@@ -445,16 +455,16 @@ int RunCommand(std::span<const std::string> arguments) {
   description.preset = line.Value("--preset");
   description.notes = processed.notes;
   const WrittenResults written = WriteResults(
-      {system, dataset, views, std::move(description), processed.first_pose_seconds, start},
+      {result, dataset, views, std::move(description), processed.first_pose_seconds, start},
       folder);
   if (!setup.quiet) {
-    Print(system, dataset, written.earlier_kept ? folder.part() : folder.path());
+    Print(result, dataset, written.earlier_kept ? folder.part() : folder.path());
   }
   if (written.earlier_kept) SayEarlierIsKept(folder);
-  if (input.viewer) KeepShowing(line, system, *input.viewer, setup.quiet);
+  if (input.viewer) KeepShowing(line, result, *input.viewer, setup.quiet);
   RethrowFailures(processed, written.failure);
   if (written.interrupted) return written.interrupted->exit_code;
-  const auto no_pose = WhyNoPose(system.frames(), processed.no_depth);
+  const auto no_pose = WhyNoPose(result.frames, processed.no_depth);
   if (no_pose) Say(*no_pose);
   return no_pose ? 1 : 0;
 }

@@ -85,20 +85,25 @@ class FrameFeed {
     Keeping([&] { pipeline_.Drain(); });
     progress_.End();
     NameShortage();
-    if (result_.failure && system_.frames().empty()) std::rethrow_exception(result_.failure);
-    if (!system_.frames().empty()) folder_.Keep();
+    if (result_.failure && frames_done_ == 0) std::rethrow_exception(result_.failure);
+    if (frames_done_ > 0) folder_.Keep();
     Keeping([&] { Report(journal_.Write(folder_)); });
     SayStopped();
-    Keeping([&] { pipeline_.Finish(StepStop()); });
+    std::exception_ptr failure;
+    result_.result = pipeline_.Finish(StepStop(), &failure);
+    Keeping([&] {
+      if (failure) std::rethrow_exception(failure);
+    });
     NameShortage();
     Keeping([&] { FinishViewing(); });
-    return result_;
+    return std::move(result_);
   }
 
  private:
   // In the thread that tracks.
   void Observe(const FrameRecord& record, const FrameView& view) {
     const auto position = static_cast<std::size_t>(record.id.value);
+    frames_done_ = position + 1;
     if (record.shed == LoadLevel::kFrame) {
       progress_.Say(fmt::format("frame {} dropped: tracking is behind", position));
     }
@@ -110,7 +115,7 @@ class FrameFeed {
     views_.Offer(position, view);
     progress_.Show(record);
     if (!input_.viewer) return;
-    input_.viewer->Show(record, view, system_.relocalizations());
+    input_.viewer->Show(record, view, system_.EventsSince(events_shown_).relocalizations);
     ShowMaps(record.keyframe);
     Report(input_.viewer->TakeFailure());
   }
@@ -121,21 +126,21 @@ class FrameFeed {
     const auto now = Clock::now();
     if (now - saved_ < std::chrono::seconds(input_.save_every_s)) return;
     saved_ = now;
-    system_.CopyMaps([saver = saver_](SavedAtlas copy) { saver->Take(std::move(copy)); });
+    system_.ReadMaps([saver = saver_](const CurrentMaps& maps) { saver->Take(maps.copy()); });
     Report(saver_->TakeFailure());
   }
 
   // In the thread that tracks, which only asks for a look at the maps.
   void ShowMaps(bool new_keyframe) {
     if (!input_.viewer->WantsMaps(new_keyframe)) return;
-    system_.ReadMaps([viewer = input_.viewer](const Atlas& atlas, const MapEvents& events) {
-      viewer->ReadMaps(atlas, events);
+    system_.ReadMaps([viewer = input_.viewer](const CurrentMaps& maps) {
+      viewer->ReadMaps(maps.atlas, maps.events);
     });
   }
 
   void FinishViewing() {
     if (!input_.viewer) return;
-    input_.viewer->Finish(system_.atlas(), system_.events());
+    input_.viewer->Finish(result_.result.atlas, result_.result.events);
     Report(input_.viewer->TakeFailure());
     result_.not_recorded = input_.viewer->RecordingFailure();
   }
@@ -202,9 +207,8 @@ class FrameFeed {
 
   // "12 of 30 frames", or "12 frames" of a live source.
   std::string HowFar() const {
-    const std::size_t done = system_.frames().size();
-    if (input_.live != nullptr) return fmt::format("{} frames", done);
-    return fmt::format("{} of {} frames", done, input_.frames.size());
+    if (input_.live != nullptr) return fmt::format("{} frames", frames_done_);
+    return fmt::format("{} of {} frames", frames_done_, input_.frames.size());
   }
 
   // Keeps the first failure.
@@ -240,6 +244,9 @@ class FrameFeed {
   RunFolder& folder_;
   KeptViews& views_;
   Processed result_;
+  // The tracking thread's until it ends.
+  std::size_t frames_done_ = 0;
+  MapEventCounts events_shown_;
   int without_depth_ = 0;           // depth images that were looked at
   const char* shortage_ = nullptr;  // that result_.failure is about, while it has no name
   Progress progress_;

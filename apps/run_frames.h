@@ -58,6 +58,7 @@ class KeptViews {
 // Progress of a run at its end.
 struct Processed {
   std::optional<double> first_pose_seconds;  // from the start of the process
+  RunResult result;
   // Reason why not all frames were taken, or mapping is not complete: an InputError, also for a
   // lack of memory or threads, or something unexpected.
   std::exception_ptr failure;

@@ -50,14 +50,14 @@ class ResultWriter {
   ResultWriter(const FinishedRun& run, RunFolder& folder) : run_(run), folder_(folder) {}
 
   WrittenResults WriteAll() {
-    for (const RunFile& file : PoseFiles(run_.system)) Write(file);
+    for (const RunFile& file : PoseFiles(run_.result)) Write(file);
     Write({"options.yaml",
            [&](const auto& path) { WriteFileAtomically(path, run_.description.options_yaml); }});
-    Write(MapFile(run_.system));
+    Write(MapFile(run_.result));
     MakeLineMaps();
     NoteSignal();
     WriteSummary();
-    for (const RunFile& file : DerivedFiles(run_.system)) Write(file);
+    for (const RunFile& file : DerivedFiles(run_.result)) Write(file);
     WriteReport();
     DrawViews();
     if (NoteSignal()) {  // it came after the summary was written
@@ -79,7 +79,7 @@ class ResultWriter {
   void MakeLineMaps() const {
     const StopCheck stop = StepStop();
     try {
-      for (const auto& [id, map] : run_.system.maps()) run_.system.LineMap(id, stop);
+      for (const auto& [id, map] : run_.result.atlas.maps()) run_.result.LineMap(id, stop);
     } catch (const std::bad_alloc&) {
       return;
     }
@@ -105,7 +105,7 @@ class ResultWriter {
     resources_ = Resources();
     Write({"summary.json", [&](const auto& path) {
              WriteFileAtomically(
-                 path, FormatSummary(description_, run_.system, run_.dataset, resources_));
+                 path, FormatSummary(description_, run_.result, run_.dataset, resources_));
            }});
   }
 
@@ -115,7 +115,7 @@ class ResultWriter {
              for (const auto& [frame, view] : run_.views.views()) {
                samples.push_back(MakeSampleImage(view, NameOfView(frame)));
              }
-             WriteHtmlReport(run_.system,
+             WriteHtmlReport(run_.result,
                              run_.dataset,
                              {description_, resources_, {}, std::move(samples)},
                              path.parent_path());
@@ -136,9 +136,9 @@ class ResultWriter {
   bool KeepsEarlier() const {
     const std::optional<EarlierRun> earlier = folder_.Earlier();
     if (!earlier) return false;
-    const RunCounts counts = CountRun(run_.system);
+    const RunCounts counts = CountRun(run_.result);
     if (counts.tracked == 0) return true;
-    const bool cut_off = run_.system.frames().size() < description_.frames_chosen;
+    const bool cut_off = run_.result.frames.size() < description_.frames_chosen;
     const bool same = !earlier->data.empty() && IsSamePath(earlier->data, description_.data_path);
     return cut_off && same && static_cast<std::size_t>(counts.in_trajectory) < earlier->poses;
   }
@@ -196,8 +196,8 @@ std::optional<std::string> WhyNoPose(const FrameLog& frames, bool no_depth) {
   return no_depth ? why + "; depth is zero everywhere" : why;
 }
 
-void PrintResult(const System& system, const Dataset& dataset, const std::string& folder) {
-  const RunCounts counts = CountRun(system);
+void PrintResult(const RunResult& result, const Dataset& dataset, const std::string& folder) {
+  const RunCounts counts = CountRun(result);
   std::cout << fmt::format(
       "frames {}: {} tracked, {} lost, {} skipped{}{}\n",
       counts.frames,
@@ -217,8 +217,8 @@ void PrintResult(const System& system, const Dataset& dataset, const std::string
         counts.shed_points,
         counts.demoted);
   }
-  const auto made = std::count_if(system.frames().begin(),
-                                  system.frames().end(),
+  const auto made = std::count_if(result.frames.begin(),
+                                  result.frames.end(),
                                   [](const FrameRecord& frame) { return frame.keyframe; });
   std::cout << fmt::format(
       "map: {}{}, {}, {}{}\n",
@@ -227,7 +227,7 @@ void PrintResult(const System& system, const Dataset& dataset, const std::string
       Counted(counts.points, "point"),
       Counted(counts.lines, "line"),
       counts.maps > 1 ? fmt::format(" (largest of {} maps)", counts.maps) : std::string());
-  const auto error = CompareWithGroundTruth(system, dataset);
+  const auto error = CompareWithGroundTruth(result, dataset);
   if (error) {
     const double scale = error->reference_from_estimate.scale;
     const bool mono = dataset.sensor() == SensorKind::kMono;

@@ -5,7 +5,7 @@
 #include "plumbline/io/dataset.h"
 #include "plumbline/report/run_folder.h"
 #include "plumbline/report/summary.h"
-#include "plumbline/slam/system.h"
+#include "plumbline/slam/run_result.h"
 
 #include "apps/run_frames.h"
 #include "apps/stop_signal.h"
@@ -17,7 +17,7 @@ namespace plumbline {
 
 // A run with all frames processed.
 struct FinishedRun {
-  const System& system;
+  const RunResult& result;
   const Dataset& dataset;
   const KeptViews& views;
   RunDescription
@@ -46,6 +46,6 @@ WrittenResults WriteResults(const FinishedRun& run, RunFolder& folder);
 std::optional<std::string> WhyNoPose(const FrameLog& frames, bool no_depth);
 
 // Prints a few lines on standard output.
-void PrintResult(const System& system, const Dataset& dataset, const std::string& folder);
+void PrintResult(const RunResult& result, const Dataset& dataset, const std::string& folder);
 
 }  // namespace plumbline

@@ -109,23 +109,23 @@ class Film {
       black.left = GrayImage(width_, height_, 0);
       black.right = GrayImage(width_, height_, 0);
       Feed(std::move(black), std::nullopt);
-      not_lost += system_.frames().back().status != FrameStatus::kLost;
+      not_lost += newest_ != FrameStatus::kLost;
     }
     return not_lost;
   }
 
-  bool FeatureTracks() const { return system_.frames().back().status == FrameStatus::kTracked; }
+  bool FeatureTracks() const { return newest_ == FrameStatus::kTracked; }
   const Rigid3& Now() const { return poses_.back().value(); }
-  System& system() { return system_; }
+  RunResult Finish() { return system_.Finish(); }
 
   struct Outcome {
     double rmse = 0;
     int tracked = 0, wrong = 0;
   };
   // The final poses of a map against the truth.
-  Outcome Compare(MapId map) const {
+  Outcome Compare(const RunResult& result, MapId map) const {
     std::vector<Eigen::Vector3d> places, true_places;
-    for (const StampedPose& pose : system_.FinalTrajectory(map)) {
+    for (const StampedPose& pose : result.FinalTrajectory(map)) {
       const auto frame = static_cast<std::size_t>(pose.stamp_ns / interval_ns_ - 1);
       places.push_back(pose.world_from_camera.translation);
       true_places.push_back(poses_[frame].value().translation);
@@ -145,19 +145,20 @@ class Film {
   void Feed(SensorFrame frame, const std::optional<Rigid3>& pose) {
     poses_.push_back(pose);
     frame.stamp_ns = static_cast<std::int64_t>(poses_.size()) * interval_ns_;
-    system_.Process(std::move(frame));
+    newest_ = system_.Process(std::move(frame)).status;
   }
 
   std::int64_t interval_ns_;
   System system_;
+  FrameStatus newest_ = FrameStatus::kInitializing;
   int width_ = 0, height_ = 0;
   std::vector<std::optional<Rigid3>> poses_;  // by frame, the true ones
 };
 
 void PrintMaps(Film& film) {
-  film.system().Finish();
-  for (const auto& [id, map] : film.system().maps()) {
-    const Film::Outcome outcome = film.Compare(id);
+  const RunResult result = film.Finish();
+  for (const auto& [id, map] : result.atlas.maps()) {
+    const Film::Outcome outcome = film.Compare(result, id);
     fmt::print("  map {}: {} keyframes, {} frames, rmse {:.1f} mm, {} wrong by more than {} m\n",
                id.value,
                map.keyframes().size(),
@@ -166,7 +167,7 @@ void PrintMaps(Film& film) {
                outcome.wrong,
                kWrong);
   }
-  for (const MapJoin& join : film.system().events().joins) {
+  for (const MapJoin& join : result.events.joins) {
     fmt::print("  map {} became part of map {} at frame {}\n",
                join.gone.value,
                join.kept.value,

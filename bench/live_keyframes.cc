@@ -16,6 +16,7 @@
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/report/error_options.h"
+#include "plumbline/slam/load_control.h"
 #include "plumbline/slam/system.h"
 
 #include "bench/replay_arguments.h"
@@ -102,7 +103,7 @@ class LiveKeyFrames {
     options_.slam.mode = RunMode::kInline;
     System with_lag(dataset_->calibration(), options_);
     for (const Measured& frame : frames_) Track(frame, with_lag);
-    Print("inline", with_lag);
+    Print("inline", with_lag.Finish());
     options_.slam.mode = RunMode::kLive;
     for (const int mapping_ms : setup_.mapping_ms) PlayLive(mapping_ms);
   }
@@ -150,7 +151,7 @@ class LiveKeyFrames {
       Track(frame, system, shedding.Next({.tasks_waiting = waiting}));
       if (!done_ns && system.TasksWaiting() > 0) done_ns = frame.stamp_ns + mapping_ns;
     }
-    Print(std::to_string(mapping_ms), system);
+    Print(std::to_string(mapping_ms), system.Finish());
   }
 
   std::optional<double> Error(const Trajectory& estimate) const {
@@ -160,20 +161,19 @@ class LiveKeyFrames {
     return 1e3 * error->ate.rmse;
   }
 
-  void Print(const std::string& name, System& system) {
-    system.Finish();
+  void Print(const std::string& name, const RunResult& result) {
     int decided = 0, given_up = 0, tracked = 0;
-    for (const FrameRecord& record : system.frames()) {
+    for (const FrameRecord& record : result.frames) {
       decided += record.keyframe || record.demoted;
       given_up += record.demoted;
       tracked += record.status == FrameStatus::kTracked;
     }
-    const auto main = system.MainMap();
+    const auto main = result.MainMap();
     if (!main) {
       fmt::print("| {} | {} | {} | no map |\n", name, decided, given_up);
       return;
     }
-    const Map& map = system.maps().at(*main);
+    const Map& map = result.atlas.maps().at(*main);
     const auto text = [](const std::optional<double>& error) {
       return error ? fmt::format("{:.2f}", *error) : std::string("-");
     };
@@ -184,9 +184,9 @@ class LiveKeyFrames {
                map.keyframes().size(),
                map.points().size(),
                tracked,
-               system.frames().size(),
-               text(Error(system.FinalTrajectory(*main))),
-               text(Error(system.CausalTrajectory(*main))));
+               result.frames.size(),
+               text(Error(result.FinalTrajectory(*main))),
+               text(Error(result.CausalTrajectory(*main))));
     std::fflush(stdout);
   }
 

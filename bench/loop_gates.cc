@@ -17,6 +17,7 @@
 #include "plumbline/base/units.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/open_dataset.h"
+#include "plumbline/loop_closing/loop_closer.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/slam/system.h"
 
@@ -326,15 +327,15 @@ class Revisits {
   std::vector<Event> events_;
 };
 
-void PrintRelocalizations(const System& system,
+void PrintRelocalizations(const RunResult& result,
                           const ViewTruth& truth,
                           const Revisits& revisits,
                           bool mono) {
   int wrong = 0;
   int foreign = 0;
-  const auto relocalizations = system.events().relocalizations;
+  const auto& relocalizations = result.events.relocalizations;
   for (const Relocalization& found : relocalizations) {
-    const FrameRecord& record = system.frames()[static_cast<std::size_t>(found.frame.value)];
+    const FrameRecord& record = result.frames[static_cast<std::size_t>(found.frame.value)];
     const KeyFrameId reference = record.reference;
     if (!reference.valid() || !revisits.Knows(reference)) {
       ++foreign;
@@ -355,7 +356,10 @@ void PrintRelocalizations(const System& system,
              foreign);
 }
 
-void Feed(const Dataset& dataset, const Arguments& arguments, System& system, Revisits& revisits) {
+RunResult Feed(const Dataset& dataset,
+               const Arguments& arguments,
+               System& system,
+               Revisits& revisits) {
   for (std::size_t i = arguments.from; i < std::min(arguments.frames, dataset.size()); ++i) {
     auto frame = dataset.Read(i);
     if (frame) {
@@ -363,10 +367,12 @@ void Feed(const Dataset& dataset, const Arguments& arguments, System& system, Re
     } else {
       system.Skip(dataset.stamp_ns(i), "unreadable");
     }
-    revisits.Look(system.atlas());
+    system.ReadMaps([&](const CurrentMaps& maps) { revisits.Look(maps.atlas); });
+    system.WaitForMapping();
   }
-  system.Finish([] { return true; });
-  revisits.Look(system.atlas());
+  RunResult result = system.Finish([] { return true; });
+  revisits.Look(result.atlas);
+  return result;
 }
 
 void Run(const Arguments& arguments) {
@@ -385,22 +391,25 @@ void Run(const Arguments& arguments) {
     system.Continue(std::move(saved), false);
   }
   const KeyFrameId newest = foreign.empty() ? KeyFrameId{} : *foreign.rbegin();
-  const ViewTruth truth(*dataset, system.camera(), system.rectifier().rectified_left_from_left());
+  const Rectifier& rectifier = system.rectifier();
+  const ViewTruth truth(*dataset, rectifier.camera(), rectifier.rectified_left_from_left());
   Gates gates(truth, foreign, arguments.mono, arguments.verbose);
   Revisits revisits(truth, gates, newest);
   system.Observe(
       [&](const Atlas& atlas, const LoopAttempt& attempt) { gates.Count(atlas, attempt); });
   fmt::print("{}{}\n", arguments.sequence, arguments.mono ? ", one camera" : "");
-  Feed(*dataset, arguments, system, revisits);
+  const RunResult result = Feed(*dataset, arguments, system, revisits);
   gates.Print();
   revisits.Print();
-  PrintRelocalizations(system, truth, revisits, arguments.mono);
+  PrintRelocalizations(result, truth, revisits, arguments.mono);
   const auto tracked =
-      std::count_if(system.frames().begin(), system.frames().end(), [](const FrameRecord& record) {
+      std::count_if(result.frames.begin(), result.frames.end(), [](const FrameRecord& record) {
         return record.status == FrameStatus::kTracked;
       });
-  fmt::print(
-      "{} of {} frames tracked, {} maps\n", tracked, system.frames().size(), system.maps().size());
+  fmt::print("{} of {} frames tracked, {} maps\n",
+             tracked,
+             result.frames.size(),
+             result.atlas.maps().size());
 }
 
 Arguments Parse(int count, char** words) {

@@ -28,6 +28,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -209,6 +210,7 @@ class Rounds {
       ++figures.frames;
       figures.tracked += record.status == FrameStatus::kTracked;
       figures.keyframes_made += record.keyframe;
+      records_.push_back(record);
       const bool maps = std::any_of(record.times.begin(), record.times.end(), [](const auto& time) {
         return time.stage == "map_take_in";
       });
@@ -234,23 +236,34 @@ class Rounds {
     return StampedPose{stamp_ns, *pose};
   }
 
+  // The map with most of the frames so far.
+  std::optional<MapId> MainMap() const {
+    std::map<MapId, int> counts;
+    for (const FrameRecord& record : records_) {
+      if (record.status == FrameStatus::kTracked) ++counts[maps_.atlas.Current(record.map)];
+    }
+    const auto most =
+        std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) {
+          return a.second < b.second;
+        });
+    if (most == counts.end()) return std::nullopt;
+    return most->first;
+  }
+
   // The camera as delivered in the current map; nullopt if the reference keyframe of the frame is
   // not in this map, or not yet.
   std::optional<Rigid3> PoseToday(const FrameRecord& record, const Map& map) const {
     const bool here = record.status == FrameStatus::kTracked &&
-                      system_->atlas().Current(record.map) == map.id() &&
-                      map.Knows(record.reference);
+                      maps_.atlas.Current(record.map) == map.id() && map.Knows(record.reference);
     if (!here) return std::nullopt;
-    const Rigid3 rectified_from_delivered{system_->rectifier().rectified_left_from_left(),
-                                          Eigen::Vector3d::Zero()};
-    return Inverse(ComposePose(map.PlaceOf(record.reference), record.from_reference)) *
-           rectified_from_delivered;
+    return DeliveredPose(ComposePose(map.PlaceOf(record.reference), record.from_reference),
+                         system_->rectifier().rectified_left_from_left());
   }
 
   // Of the frames of a round, in millimetres.
   std::optional<double> Error(const Map& map, std::int64_t from_ns) const {
     Trajectory estimate, truth;
-    for (const FrameRecord& record : system_->frames()) {
+    for (const FrameRecord& record : records_) {
       if (record.stamp_ns < from_ns) continue;
       if (const auto pose = PoseToday(record, map)) estimate.push_back({record.stamp_ns, *pose});
     }
@@ -267,7 +280,7 @@ class Rounds {
   double SavedMegabytes() const {
     const fs::path path =
         fs::temp_directory_path() / fmt::format("rounds_of_a_room_{}.plb", getpid());
-    SaveAtlas(path, system_->atlas(), system_->Context());
+    SaveAtlas(path, maps_.atlas, maps_.context);
     const double size = static_cast<double>(fs::file_size(path)) / (1024.0 * 1024.0);
     fs::remove(path);
     return size;
@@ -275,12 +288,18 @@ class Rounds {
 
   void Print(int round, const std::vector<Visit>& visits, const RoundFigures& figures) {
     const double resident = ResidentMegabytes(), heap = HeapMegabytes();
-    const auto main = system_->MainMap();
+    MapEvents events;
+    system_->ReadMaps([&](const CurrentMaps& maps) {
+      maps_ = maps.copy();
+      events = maps.events;
+    });
+    system_->WaitForMapping();
+    const auto main = MainMap();
     if (!main) {
       fmt::print("| {} | 0 of {} |\n", round, figures.frames);
       return;
     }
-    const Map& map = system_->maps().at(*main);
+    const Map& map = maps_.atlas.maps().at(*main);
     constexpr int kSnapshots = 20;
     const double start = CpuMilliseconds();
     for (int i = 0; i < kSnapshots; ++i) TakeSnapshot(map, map.keyframes().rbegin()->first);
@@ -293,14 +312,14 @@ class Rounds {
         round,
         figures.tracked,
         figures.frames,
-        system_->maps().size(),
+        maps_.atlas.maps().size(),
         map.keyframes().size(),
         figures.keyframes_made,
         record.removed_keyframes.size(),
         map.points().size(),
         map.lines().size(),
         record.merged_points.size() + record.merged_lines.size(),
-        system_->events().loops.size(),
+        events.loops.size(),
         resident,
         heap,
         figures.frame_ms,
@@ -316,7 +335,9 @@ class Rounds {
   std::unique_ptr<Dataset> dataset_;
   Walk walk_;
   std::unique_ptr<System> system_;
-  Trajectory truth_;  // of the recording
+  std::vector<FrameRecord> records_;  // as first told
+  SavedAtlas maps_;                   // after the last round
+  Trajectory truth_;                  // of the recording
   std::vector<std::optional<StampedPose>> truth_by_frame_;
 };
 

@@ -5,8 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/report/summary.h"
-#include "plumbline/slam/atlas_context.h"
-#include "plumbline/version.h"
+#include "plumbline/slam/front_end.h"
 
 #include <utility>
 
@@ -40,9 +39,7 @@ RunningSystem::RunningSystem(const Calibration& calibration,
       system_(calibration, options),
       pipeline_(system_, [this](const FrameRecord& record, const FrameView& view) {
         Observe(record, view);
-      }) {
-  system_.DescribeSession(PLUMBLINE_VERSION);
-}
+      }) {}
 
 void RunningSystem::Feed(SensorFrame frame) {
   const auto lock = Enter("feed");
@@ -71,8 +68,7 @@ FrameRecord RunningSystem::Process(SensorFrame frame) {
     if (awaited_) return *std::exchange(awaited_, std::nullopt);
   }
   // Tracking failed: completes the mapping so far, and rethrows the reason.
-  finished_ = true;
-  pipeline_.Finish();
+  FinishRun({});
   throw BugError("a frame has no record");
 }
 
@@ -97,10 +93,12 @@ MapEvents RunningSystem::TakeEvents() {
 std::vector<std::string> RunningSystem::Continue(SavedAtlas saved, bool read_only) {
   const auto lock = Enter("continue_in");
   CheckRunning("continue_in");
-  if (last_stamp_ns_ || system_.loaded() != nullptr) {
+  if (last_stamp_ns_ || continues_) {
     throw InputError("continue_in: expected a system before its first frame, found one that runs");
   }
-  return system_.Continue(std::move(saved), read_only);
+  std::vector<std::string> notes = system_.Continue(std::move(saved), read_only);
+  continues_ = true;
+  return notes;
 }
 
 void RunningSystem::KeepViews(const std::vector<std::size_t>& frames) {
@@ -113,9 +111,15 @@ void RunningSystem::KeepViews(const std::vector<std::size_t>& frames) {
 void RunningSystem::Finish(const StopCheck& stop) {
   const auto lock = Enter("finish");
   CheckRunning("finish");
-  finished_ = true;
-  pipeline_.Finish(stop);
-  NoteNewEvents();
+  FinishRun(stop);
+}
+
+// Whatever fails, the system is finished afterwards, with the result so far.
+void RunningSystem::FinishRun(const StopCheck& stop) {
+  std::exception_ptr failure;
+  result_ = pipeline_.Finish(stop, &failure);
+  if (failure) std::rethrow_exception(failure);
+  NoteEvents(TakeNew(result_->events, events_known_));
 }
 
 SavedAtlas RunningSystem::CopyMaps() {
@@ -123,19 +127,22 @@ SavedAtlas RunningSystem::CopyMaps() {
   if (!last_stamp_ns_) {
     throw InputError("maps: expected a system with a frame, found one before its first frame");
   }
-  if (finished_) return {system_.atlas(), system_.Context()};
+  if (result_) return {result_->atlas, result_->context};
   pipeline_.Drain();
-  return system_.CopyMaps();
+  SavedAtlas copied;
+  system_.ReadMaps([&copied](const CurrentMaps& maps) { copied = maps.copy(); });
+  system_.WaitForMapping();
+  return copied;
 }
 
 MapEvents RunningSystem::Events() {
   const auto lock = Enter("events");
   if (!last_stamp_ns_) return {};
-  if (!finished_) {
-    pipeline_.Drain();
-    system_.CopyMaps();  // waits for mapping
-  }
-  return system_.events();
+  if (result_) return result_->events;
+  pipeline_.Drain();
+  system_.WaitForMapping();
+  MapEventCounts none;
+  return system_.EventsSince(none);
 }
 
 std::unique_lock<std::mutex> RunningSystem::Enter(const char* what) {
@@ -146,18 +153,18 @@ std::unique_lock<std::mutex> RunningSystem::Enter(const char* what) {
 }
 
 void RunningSystem::CheckRunning(const char* what) const {
-  if (!finished_) return;
+  if (!result_) return;
   throw InputError(std::string(what) + ": expected a system that runs, found one that is finished");
 }
 
 void RunningSystem::CheckFinished(const char* what) const {
-  if (finished_) return;
+  if (result_) return;
   throw InputError(std::string(what) +
                    ": expected a system that is finished (finish()), found one that runs");
 }
 
 void RunningSystem::CheckFrame(const SensorFrame& frame) const {
-  system_.CheckImages(frame);
+  CheckImages(calibration_, frame);
   CheckImage("left", frame.left, calibration_);
   if (calibration_.right) CheckImage("right", *frame.right, calibration_);
   if (frame.depth) CheckImage("depth", *frame.depth, calibration_);
@@ -176,8 +183,7 @@ void RunningSystem::CheckStamp(std::int64_t stamp_ns) {
 }
 
 // In the thread that tracks, or when it has ended.
-void RunningSystem::NoteNewEvents() {
-  const MapEvents fresh = system_.EventsSince(events_known_);
+void RunningSystem::NoteEvents(const MapEvents& fresh) {
   if (fresh.empty()) return;
   const std::lock_guard lock(records_mutex_);
   const auto append = [](auto& events, const auto& more) {
@@ -191,7 +197,7 @@ void RunningSystem::NoteNewEvents() {
 // In the thread that tracks.
 void RunningSystem::Observe(const FrameRecord& record, const FrameView& view) {
   views_.Offer(static_cast<std::size_t>(record.id.value), view);
-  NoteNewEvents();
+  NoteEvents(system_.EventsSince(events_known_));
   const std::lock_guard lock(records_mutex_);
   if (!first_pose_seconds_ && record.status == FrameStatus::kTracked) {
     first_pose_seconds_ = SecondsSinceProcessStart();

@@ -45,7 +45,7 @@ class RunningSystem {
   // Stores views of these frames from now on, for the report.
   void KeepViews(const std::vector<std::size_t>& frames);
   void Finish(const StopCheck& stop);
-  bool finished() const { return finished_; }
+  bool finished() const { return result_.has_value(); }
 
   // Returns the maps once mapping has done all tasks submitted so far, at any time after the first
   // frame.
@@ -54,12 +54,12 @@ class RunningSystem {
   // Returns the map events since the last call that are known by now: in order, but the time at
   // which a loop becomes known depends on the machine's speed. After the end: all remaining ones.
   MapEvents TakeEvents();
-  // Calls `use` with the system, which must be finished.
+  // Calls `use` with the result of the system, which must be finished.
   template <class Use>
   auto WithFinished(const char* what, const Use& use) {
     const auto lock = Enter(what);
     CheckFinished(what);
-    return use(static_cast<const System&>(system_));
+    return use(*result_);
   }
   const KeptViews& views() const { return views_; }
   std::optional<double> first_pose_seconds() const { return first_pose_seconds_; }
@@ -72,14 +72,16 @@ class RunningSystem {
   void CheckFrame(const SensorFrame& frame) const;
   void CheckStamp(std::int64_t stamp_ns);
   void Observe(const FrameRecord& record, const FrameView& view);
-  void NoteNewEvents();
+  void NoteEvents(const MapEvents& fresh);
+  void FinishRun(const StopCheck& stop);
 
   Calibration calibration_;
   SlamOptions options_;
   std::optional<std::string> preset_;
   System system_;
   std::mutex entered_;
-  bool finished_ = false;
+  std::optional<RunResult> result_;  // once it is finished
+  bool continues_ = false;           // maps were loaded
   std::optional<std::int64_t> last_stamp_ns_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   KeptViews views_{{}};

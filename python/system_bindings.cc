@@ -113,16 +113,16 @@ std::vector<std::string> ContinueIn(RunningSystem& system, const PyAtlas& atlas,
   return system.Continue(*atlas.saved, read_only);
 }
 
-void CheckMapId(const System& finished, const std::optional<std::int64_t>& map) {
-  if (!map || finished.maps().contains(MapId{*map})) return;
+void CheckMapId(const RunResult& finished, const std::optional<std::int64_t>& map) {
+  if (!map || finished.atlas.maps().contains(MapId{*map})) return;
   throw InputError(fmt::format("map: expected the id of a map, found {}", *map));
 }
 
-using TrajectoryOf = Trajectory (System::*)(MapId) const;
+using TrajectoryOf = Trajectory (RunResult::*)(MapId) const;
 
 template <TrajectoryOf of>
 PoseList TrajectoryIn(RunningSystem& system, const std::optional<std::int64_t>& map) {
-  return system.WithFinished("trajectory", [&](const System& finished) {
+  return system.WithFinished("trajectory", [&](const RunResult& finished) {
     CheckMapId(finished, map);
     const auto id = map ? MapId{*map} : finished.MainMap();
     return PoseList{id ? (finished.*of)(*id) : Trajectory()};
@@ -130,7 +130,7 @@ PoseList TrajectoryIn(RunningSystem& system, const std::optional<std::int64_t>& 
 }
 
 py::tuple CovariancesIn(RunningSystem& system, const std::optional<std::int64_t>& map) {
-  return system.WithFinished("causal_covariances", [&](const System& finished) {
+  return system.WithFinished("causal_covariances", [&](const RunResult& finished) {
     CheckMapId(finished, map);
     const auto id = map ? MapId{*map} : finished.MainMap();
     std::vector<StampedCovariance> known;
@@ -231,7 +231,7 @@ std::filesystem::path WriteRun(RunningSystem& system,
                              arguments};
   description.frames_chosen = frames_chosen;
   description.preset = system.preset();
-  const WrittenResults written = system.WithFinished("save", [&](const System& finished) {
+  const WrittenResults written = system.WithFinished("save", [&](const RunResult& finished) {
     return WriteResults({finished,
                          *dataset,
                          system.views(),
@@ -400,24 +400,24 @@ The events since the last call that are known by now, without waiting for mappin
 dictionaries of events(), each with its "kind": "loop", "join" or "relocalization". None is missing
 after finish(); how soon one is told depends on the machine's speed.)")
       .def("trajectory",
-           &TrajectoryIn<&System::FinalTrajectory>,
+           &TrajectoryIn<&RunResult::FinalTrajectory>,
            map,
            R"(trajectory(map=None) -> Trajectory
 
 After finish(): all frames with a pose, in the map with this id (None: where most frames are).)")
       .def("causal_trajectory",
-           &TrajectoryIn<&System::CausalTrajectory>,
+           &TrajectoryIn<&RunResult::CausalTrajectory>,
            map,
            "causal_trajectory(map=None) -> Trajectory\n\nPoses as first reported.")
       .def("keyframe_trajectory",
-           &TrajectoryIn<&System::KeyFrameTrajectory>,
+           &TrajectoryIn<&RunResult::KeyFrameTrajectory>,
            map,
            "keyframe_trajectory(map=None) -> Trajectory")
       .def_property_readonly(
           "main_map",
           [](RunningSystem& running) {
             return running.WithFinished("main_map",
-                                        [](const System& s) -> std::optional<std::int64_t> {
+                                        [](const RunResult& s) -> std::optional<std::int64_t> {
                                           if (!s.MainMap()) return std::nullopt;
                                           return s.MainMap()->value;
                                         });

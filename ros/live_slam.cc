@@ -52,11 +52,10 @@ MapView ViewOf(const Map& map, const Eigen::Quaterniond& rectified_from_left) {
     const Segment3 segment = line.Interval();
     view.lines.emplace_back(segment.start, segment.end);
   }
-  const Rigid3 rectified_from_delivered{rectified_from_left, Eigen::Vector3d::Zero()};
   std::map<std::int64_t, Rigid3> by_time;
   for (const auto& [id, keyframe] : map.keyframes()) {
     by_time.emplace(keyframe.frame.stamp_ns,
-                    Inverse(keyframe.frame.cam_from_world) * rectified_from_delivered);
+                    DeliveredPose(keyframe.frame.cam_from_world, rectified_from_left));
   }
   view.keyframes.assign(by_time.begin(), by_time.end());
   return view;
@@ -71,9 +70,7 @@ class Session {
       : system_(calibration, options),
         observer_(std::move(observer)),
         pipeline_(system_,
-                  [this](const FrameRecord& record, const FrameView&) { Observe(record); }) {
-    system_.DescribeSession(PLUMBLINE_ROS_VERSION);
-  }
+                  [this](const FrameRecord& record, const FrameView&) { Observe(record); }) {}
 
   System& system() { return system_; }
   Pipeline& pipeline() { return pipeline_; }
@@ -223,18 +220,20 @@ void LiveSlam::Implementation::ViewMap(std::function<void(MapView)> take) {
   session_->pipeline().Drain();
   System& system = session_->system();
   // The map is shown in the world of the poses that are reported meanwhile.
-  system.ReadMaps(
-      [take = std::move(take), rectified_from_left = system.rectifier().rectified_left_from_left()](
-          const Atlas& atlas, const MapEvents&) {
-        const Map* map = atlas.Find(atlas.active_id());
-        if (map != nullptr) take(ViewOf(*map, rectified_from_left));
-      });
+  system.ReadMaps([take = std::move(take),
+                   rectified_from_left =
+                       system.rectifier().rectified_left_from_left()](const CurrentMaps& maps) {
+    const Map* map = maps.atlas.Find(maps.atlas.active_id());
+    if (map != nullptr) take(ViewOf(*map, rectified_from_left));
+  });
 }
 
 std::string LiveSlam::Implementation::Save(const std::string& path) {
   if (!HasFrames()) throw InputError(path + ": expected frames before a map is saved, found none");
   session_->pipeline().Drain();
-  const SavedAtlas saved = session_->system().CopyMaps();
+  SavedAtlas saved;
+  session_->system().ReadMaps([&saved](const CurrentMaps& maps) { saved = maps.copy(); });
+  session_->system().WaitForMapping();
   SaveAtlas(path, saved.atlas, saved.context);
   const Map* map = saved.atlas.Find(saved.atlas.active_id());
   return fmt::format("{}: {} keyframes, {} points, {} lines",

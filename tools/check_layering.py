@@ -36,7 +36,7 @@ LAYERS = {
     "io": ["base", "geometry", "image", "features", "map", "recording"],
     "live": ["base", "geometry", "image", "io"],
     "eval": ["base", "geometry"],
-    "report": ["base", "geometry", "image", "features", "map", "initialization", "io", "slam", "eval"],
+    "report": ["base", "geometry", "image", "features", "map", "io", "slam", "eval"],
     "viewer": ["base", "geometry", "image", "features", "map", "slam", "recording", "foxglove"],
     "worlds": ["base", "geometry", "image", "io"],
     "line_maps": ["base", "geometry", "io", "eval", "report", "worlds"],

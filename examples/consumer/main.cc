@@ -20,10 +20,10 @@ int main(int argc, char** argv) {
       system.Skip(dataset->stamp_ns(i), "image_unreadable");
     }
   }
-  system.Finish();
-  const auto map = system.MainMap();
+  const plumbline::RunResult result = system.Finish();
+  const auto map = result.MainMap();
   if (!map) return 1;
-  for (const auto& pose : system.FinalTrajectory(*map)) {
+  for (const auto& pose : result.FinalTrajectory(*map)) {
     std::cout << pose.stamp_ns << ' ' << pose.world_from_camera.translation.transpose() << '\n';
   }
 }

@@ -14,9 +14,9 @@ int main(int argc, char** argv) {
   plumbline::SetUpProcess();
   plumbline::SlamOptions options;
   options.features.line_count = 200;
-  const auto system = plumbline::RunDataset(*plumbline::OpenDataset(argv[1]), options);
-  const auto map = system->MainMap();
+  const auto result = plumbline::RunDataset(*plumbline::OpenDataset(argv[1]), options);
+  const auto map = result.MainMap();
   if (!map) return 1;
-  std::cout << plumbline::FormatTum(system->FinalTrajectory(*map));
-  std::cerr << system->LineMap(*map).size() << " lines in the map\n";
+  std::cout << plumbline::FormatTum(result.FinalTrajectory(*map));
+  std::cerr << result.LineMap(*map).size() << " lines in the map\n";
 }

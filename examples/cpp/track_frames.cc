@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
     const plumbline::FrameRecord& record = system.Process(std::move(frame));
     if (record.causal_world_from_camera) std::cerr << "tracked\n";  // the pose is known at once
   }
-  system.Finish();
-  if (const auto map = system.MainMap())
-    std::cout << plumbline::FormatTum(system.FinalTrajectory(*map));
+  const plumbline::RunResult result = system.Finish();
+  if (const auto map = result.MainMap())
+    std::cout << plumbline::FormatTum(result.FinalTrajectory(*map));
 }

@@ -38,24 +38,24 @@ std::string EscapeScriptJson(std::string_view json) {
   return escaped;
 }
 
-std::string FormatHtmlReport(const System& system,
+std::string FormatHtmlReport(const RunResult& result,
                              const Dataset& dataset,
                              const ReportContext& context) {
   std::string page(ReportPage());
   // The order matters, since either text may contain a mark: the mark of the title stands before
   // the data.
-  Fill(page, "{{DATA}}", EscapeScriptJson(FormatReportData(system, dataset, context)));
+  Fill(page, "{{DATA}}", EscapeScriptJson(FormatReportData(result, dataset, context)));
   Fill(page, "{{TITLE}}", EscapeHtml(dataset.info().name));
   return page;
 }
 
-void WriteHtmlReport(const System& system,
+void WriteHtmlReport(const RunResult& result,
                      const Dataset& dataset,
                      ReportContext context,
                      const std::filesystem::path& folder) {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   context.date = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(now));
-  WriteFileAtomically(folder / "report.html", FormatHtmlReport(system, dataset, context));
+  WriteFileAtomically(folder / "report.html", FormatHtmlReport(result, dataset, context));
 }
 
 }  // namespace plumbline

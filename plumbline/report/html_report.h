@@ -15,13 +15,13 @@ std::string EscapeScriptJson(std::string_view json);
 
 // Returns report.html: one self-contained page that needs no network, with the data of
 // FormatReportData and the scripts that draw it.
-std::string FormatHtmlReport(const System& system,
+std::string FormatHtmlReport(const RunResult& result,
                              const Dataset& dataset,
                              const ReportContext& context);
 
 // Writes report.html into a folder, atomically. The date of the context is replaced by the time of
 // the call (UTC). Throws InputError if the file cannot be written.
-void WriteHtmlReport(const System& system,
+void WriteHtmlReport(const RunResult& result,
                      const Dataset& dataset,
                      ReportContext context,
                      const std::filesystem::path& folder);

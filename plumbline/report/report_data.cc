@@ -79,7 +79,7 @@ std::string ShellWord(const std::string& word) {
   return quoted + "'";
 }
 
-Json Run(const System& system, const Dataset& dataset, const ReportContext& context) {
+Json Run(const RunResult& result, const Dataset& dataset, const ReportContext& context) {
   const RunDescription& description = context.description;
   std::string command = "plumbline run";
   for (const std::string& word : description.arguments) command += " " + ShellWord(word);
@@ -101,7 +101,7 @@ Json Run(const System& system, const Dataset& dataset, const ReportContext& cont
           {"cpu_seconds", Rounded(context.resources.cpu_seconds, 3)},
           {"peak_memory_mb", Rounded(context.resources.peak_memory_mb, 1)},
           {"preset", description.preset ? Json(*description.preset) : Json(nullptr)},
-          {"options", Options(system.options())}};
+          {"options", Options(result.options)}};
 }
 
 Json Counts(const RunCounts& c) {
@@ -294,7 +294,7 @@ Json Events(const RunScene& scene, const ShownFrames& shown) {
   return events;
 }
 
-Json Scene(const System& system,
+Json Scene(const RunResult& result,
            const Dataset& dataset,
            const RunScene& scene,
            const ShownFrames& shown) {
@@ -302,13 +302,13 @@ Json Scene(const System& system,
   for (const MapScene& map : scene.maps) {
     maps.push_back(MapData(map, scene.origin, dataset.sensor(), shown));
   }
-  const std::int64_t start = system.frames().empty() ? 0 : system.frames().StampOf(0);
+  const std::int64_t start = result.frames.empty() ? 0 : result.frames.StampOf(0);
   Floats reference, reference_seconds;
   for (const StampedPose& pose : scene.reference) {
     reference.Add(pose.world_from_camera.translation - scene.origin);
     reference_seconds.Add(static_cast<double>(pose.stamp_ns - start) * 1e-9);
   }
-  const RectifiedCamera& camera = system.camera();
+  const RectifiedCamera& camera = result.camera;
   return {{"origin", {scene.origin.x(), scene.origin.y(), scene.origin.z()}},
           {"up", {scene.up.x(), scene.up.y(), scene.up.z()}},
           {"has_ground_truth", dataset.info().ground_truth.has_value()},
@@ -374,19 +374,19 @@ std::vector<std::size_t> FramesSpokenOf(const RunScene& scene,
 
 }  // namespace
 
-std::string FormatReportData(const System& system,
+std::string FormatReportData(const RunResult& result,
                              const Dataset& dataset,
                              const ReportContext& context) {
-  const RunScene scene = MakeRunScene(system, dataset);
+  const RunScene scene = MakeRunScene(result, dataset);
   const ShownFrames shown(
-      system.frames(), FramesSpokenOf(scene, context.samples), context.most_frames);
+      result.frames, FramesSpokenOf(scene, context.samples), context.most_frames);
   Json json;
-  json["run"] = Run(system, dataset, context);
-  json["counts"] = Counts(CountRun(system));
+  json["run"] = Run(result, dataset, context);
+  json["counts"] = Counts(CountRun(result));
   json["shown_every"] = shown.step();
-  json["frames"] = Frames(system.frames(), shown);
-  json["stages"] = Stages(system.frames(), shown);
-  json["scene"] = Scene(system, dataset, scene, shown);
+  json["frames"] = Frames(result.frames, shown);
+  json["stages"] = Stages(result.frames, shown);
+  json["scene"] = Scene(result, dataset, scene, shown);
   json["samples"] = Samples(context.samples, shown);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -6,7 +6,7 @@
 #include "plumbline/report/sample_image.h"
 #include "plumbline/report/shown_frames.h"
 #include "plumbline/report/summary.h"
-#include "plumbline/slam/system.h"
+#include "plumbline/slam/run_result.h"
 
 #include <cstddef>
 #include <string>
@@ -34,7 +34,7 @@ struct ReportContext {
 // Text that is not UTF-8 is repaired.
 //
 //   cost  O(frames + landmarks)
-std::string FormatReportData(const System& system,
+std::string FormatReportData(const RunResult& result,
                              const Dataset& dataset,
                              const ReportContext& context);
 

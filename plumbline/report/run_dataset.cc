@@ -27,14 +27,14 @@ Expected<SensorFrame, ImageFailure> ReadLive(const Dataset& dataset,
 
 }  // namespace
 
-std::unique_ptr<System> RunDataset(const Dataset& dataset,
-                                   const SlamOptions& options,
-                                   const FrameObserver& observe,
-                                   const StopCheck& stop) {
-  auto system = std::make_unique<System>(dataset.calibration(), options);
+RunResult RunDataset(const Dataset& dataset,
+                     const SlamOptions& options,
+                     const FrameObserver& observe,
+                     const StopCheck& stop) {
+  System system(dataset.calibration(), options);
   const bool live = options.slam.mode == RunMode::kLive;
   PlaybackSchedule schedule;
-  Pipeline pipeline(*system, [&observe](const FrameRecord& record, const FrameView&) {
+  Pipeline pipeline(system, [&observe](const FrameRecord& record, const FrameView&) {
     if (observe) observe(record);
   });
   for (std::size_t i = 0; i < dataset.size(); ++i) {
@@ -46,8 +46,7 @@ std::unique_ptr<System> RunDataset(const Dataset& dataset,
       pipeline.Skip(dataset.stamp_ns(i), "image_unreadable");
     }
   }
-  pipeline.Finish(stop);
-  return system;
+  return pipeline.Finish(stop);
 }
 
 }  // namespace plumbline

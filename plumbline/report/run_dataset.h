@@ -6,10 +6,9 @@
 #include "plumbline/io/dataset.h"
 #include "plumbline/slam/frame_record.h"
 #include "plumbline/slam/options.h"
-#include "plumbline/slam/system.h"
+#include "plumbline/slam/run_result.h"
 
 #include <functional>
-#include <memory>
 
 namespace plumbline {
 
@@ -24,16 +23,15 @@ using FrameObserver = std::function<void(const FrameRecord& record)>;
 //   observe   may be empty
 //   stop      called before each frame; once true, no more frames are processed, and the final
 //             adjustment of the maps is cut short. May be empty.
-//   returns   the finished system, with complete FinalTrajectory, CausalTrajectory, LineMap and
-//             maps(). It does not refer to the data set.
+//   returns   trajectories, maps and lines (RunResult), which do not refer to the data set
 //
 // A frame whose image cannot be read is skipped and recorded as image_unreadable. Throws InputError
 // for an invalid calibration and for an image of another size than calibrated. The result has the
 // same bytes as that of the program's `run`, except in live mode. Cost: the time of the run; images
 // are read in the calling thread.
-std::unique_ptr<System> RunDataset(const Dataset& dataset,
-                                   const SlamOptions& options = {},
-                                   const FrameObserver& observe = {},
-                                   const StopCheck& stop = {});
+RunResult RunDataset(const Dataset& dataset,
+                     const SlamOptions& options = {},
+                     const FrameObserver& observe = {},
+                     const StopCheck& stop = {});
 
 }  // namespace plumbline

@@ -27,21 +27,21 @@ RunFile TumFile(const std::string& name, const std::function<Trajectory()>& make
   return {name, [=](const std::filesystem::path& path) { WriteTum(path, make()); }};
 }
 
-void AddTrajectories(const System& system,
+void AddTrajectories(const RunResult& result,
                      MapId map,
                      const TrajectoryNames& names,
                      std::vector<RunFile>& files) {
-  const auto add = [&](const std::string& name, Trajectory (System::*of)(MapId) const) {
-    files.push_back(TumFile(name, [&system, of, map] { return (system.*of)(map); }));
+  const auto add = [&](const std::string& name, Trajectory (RunResult::*of)(MapId) const) {
+    files.push_back(TumFile(name, [&result, of, map] { return (result.*of)(map); }));
   };
-  add(names.final_estimate, &System::FinalTrajectory);
-  add(names.causal, &System::CausalTrajectory);
-  add(names.keyframes, &System::KeyFrameTrajectory);
+  add(names.final_estimate, &RunResult::FinalTrajectory);
+  add(names.causal, &RunResult::CausalTrajectory);
+  add(names.keyframes, &RunResult::KeyFrameTrajectory);
 }
 
-std::vector<RunFile> TrajectoryFiles(const System& system) {
+std::vector<RunFile> TrajectoryFiles(const RunResult& result) {
   std::vector<RunFile> files;
-  const auto main = system.MainMap();
+  const auto main = result.MainMap();
   if (!main) {
     const TrajectoryNames names;
     for (const std::string& name : {names.final_estimate, names.causal, names.keyframes}) {
@@ -49,61 +49,61 @@ std::vector<RunFile> TrajectoryFiles(const System& system) {
     }
     return files;
   }
-  AddTrajectories(system, *main, TrajectoryNames(), files);
-  for (const auto& [id, map] : system.maps()) {
+  AddTrajectories(result, *main, TrajectoryNames(), files);
+  for (const auto& [id, map] : result.atlas.maps()) {
     if (id == *main) continue;
-    AddTrajectories(system, id, TrajectoryNames(id), files);
+    AddTrajectories(result, id, TrajectoryNames(id), files);
   }
   // Poses that were reported in a map that another one took in later are in the world of that map.
-  for (const auto& [id, joined] : system.atlas().joined()) {
+  for (const auto& [id, joined] : result.atlas.joined()) {
     files.push_back(TumFile(TrajectoryNames(id).causal,
-                            [&system, gone = id] { return system.CausalTrajectory(gone); }));
+                            [&result, gone = id] { return result.CausalTrajectory(gone); }));
   }
   return files;
 }
 
-void WriteCovariances(const System& system,
+void WriteCovariances(const RunResult& result,
                       std::optional<MapId> map,
                       const std::filesystem::path& path) {
   std::vector<StampedCovariance> covariances;
-  if (map) covariances = system.CausalCovariances(*map);
+  if (map) covariances = result.CausalCovariances(*map);
   WriteFileAtomically(path, FormatCovariances(covariances));
 }
 
 // Returns one file beside each of causal poses.
-std::vector<RunFile> CovarianceFiles(const System& system) {
+std::vector<RunFile> CovarianceFiles(const RunResult& result) {
   std::vector<RunFile> files;
   const auto add = [&](const TrajectoryNames& names, std::optional<MapId> map) {
-    files.push_back({names.covariance, [=, &system](const std::filesystem::path& path) {
-                       WriteCovariances(system, map, path);
+    files.push_back({names.covariance, [=, &result](const std::filesystem::path& path) {
+                       WriteCovariances(result, map, path);
                      }});
   };
-  const auto main = system.MainMap();
+  const auto main = result.MainMap();
   add(TrajectoryNames(), main);
   if (!main) return files;
-  for (const auto& [id, map] : system.maps()) {
+  for (const auto& [id, map] : result.atlas.maps()) {
     if (id != *main) add(TrajectoryNames(id), id);
   }
-  for (const auto& [id, joined] : system.atlas().joined()) add(TrajectoryNames(id), id);
+  for (const auto& [id, joined] : result.atlas.joined()) add(TrajectoryNames(id), id);
   return files;
 }
 
 template <class Format>
-RunFile FramesFile(const std::string& name, const System& system, const Format& format) {
-  return {name, [=, &system](const std::filesystem::path& path) {
-            WriteFileAtomically(path, format(system.frames()));
+RunFile FramesFile(const std::string& name, const RunResult& result, const Format& format) {
+  return {name, [=, &result](const std::filesystem::path& path) {
+            WriteFileAtomically(path, format(result.frames));
           }};
 }
 
-std::vector<Segment3> LinesToSave(const System& system) {
-  const auto main = system.MainMap();
-  return main ? SegmentsOf(system.LineMap(*main)) : std::vector<Segment3>();
+std::vector<Segment3> LinesToSave(const RunResult& result) {
+  const auto main = result.MainMap();
+  return main ? SegmentsOf(result.LineMap(*main)) : std::vector<Segment3>();
 }
 
-void WriteMapPly(const System& system, const std::filesystem::path& path) {
+void WriteMapPly(const RunResult& result, const std::filesystem::path& path) {
   std::vector<Eigen::Vector3d> points;
-  if (const auto main = system.MainMap()) points = PointPositions(system.maps().at(*main));
-  WritePly(path, points, LinesToSave(system));
+  if (const auto main = result.MainMap()) points = PointPositions(result.atlas.maps().at(*main));
+  WritePly(path, points, LinesToSave(result));
 }
 
 }  // namespace
@@ -159,39 +159,39 @@ std::string FormatFrames(const FrameLog& frames, const Atlas& atlas) {
   return text;
 }
 
-std::vector<RunFile> PoseFiles(const System& system) {
-  std::vector<RunFile> files = TrajectoryFiles(system);
-  const auto format = [&system](const FrameLog& frames) {
-    return FormatFrames(frames, system.atlas());
+std::vector<RunFile> PoseFiles(const RunResult& result) {
+  std::vector<RunFile> files = TrajectoryFiles(result);
+  const auto format = [&result](const FrameLog& frames) {
+    return FormatFrames(frames, result.atlas);
   };
-  files.push_back(FramesFile("frames.csv", system, format));
-  for (RunFile& file : CovarianceFiles(system)) files.push_back(std::move(file));
+  files.push_back(FramesFile("frames.csv", result, format));
+  for (RunFile& file : CovarianceFiles(result)) files.push_back(std::move(file));
   return files;
 }
 
-RunFile MapFile(const System& system) {
-  return {"map.plb", [&system](const std::filesystem::path& path) {
+RunFile MapFile(const RunResult& result) {
+  return {"map.plb", [&result](const std::filesystem::path& path) {
             // Maps that are only read stay as they were, and so does the choice of the active map.
-            const MapId active = system.atlas().active_id();
+            const MapId active = result.atlas.active_id();
             SaveAtlas(path,
-                      system.atlas(),
-                      system.Context(),
-                      system.read_only() ? active : system.MainMap().value_or(active));
+                      result.atlas,
+                      result.context,
+                      result.read_only ? active : result.MainMap().value_or(active));
           }};
 }
 
-std::vector<RunFile> DerivedFiles(const System& system) {
+std::vector<RunFile> DerivedFiles(const RunResult& result) {
   std::vector<RunFile> files;
-  files.push_back(FramesFile("timing.csv", system, FormatTimingCsv));
-  files.push_back(FramesFile("timing.json", system, FormatTimingJson));
-  files.push_back({"lines.obj", [&system](const std::filesystem::path& path) {
-                     WriteObjLines(path, LinesToSave(system));
+  files.push_back(FramesFile("timing.csv", result, FormatTimingCsv));
+  files.push_back(FramesFile("timing.json", result, FormatTimingJson));
+  files.push_back({"lines.obj", [&result](const std::filesystem::path& path) {
+                     WriteObjLines(path, LinesToSave(result));
                    }});
-  files.push_back({"lines.dxf", [&system](const std::filesystem::path& path) {
-                     WriteDxfLines(path, LinesToSave(system));
+  files.push_back({"lines.dxf", [&result](const std::filesystem::path& path) {
+                     WriteDxfLines(path, LinesToSave(result));
                    }});
   files.push_back(
-      {"map.ply", [&system](const std::filesystem::path& path) { WriteMapPly(system, path); }});
+      {"map.ply", [&result](const std::filesystem::path& path) { WriteMapPly(result, path); }});
   return files;
 }
 

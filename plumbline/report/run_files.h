@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/report/run_folder.h"
-#include "plumbline/slam/system.h"
+#include "plumbline/slam/run_result.h"
 
 #include <cstdint>
 #include <optional>
@@ -28,20 +28,20 @@ std::string FormatFrameRow(const FrameRecord& frame, MapId final_map);
 std::string FormatFrames(const FrameLog& frames, const Atlas& atlas = {});
 
 // The functions below return the files of a finished run, by descending value for their size. The
-// files refer to the system, which must outlive them, and read it only when they are written. Each
+// files refer to the result, which must outlive them, and read it only when they are written. Each
 // is written atomically; writing throws WriteError.
 
 // Returns trajectory.txt, trajectory_causal.txt, keyframes.txt (of the map with most frames; then
 // those of other maps as *_map<k>.txt), frames.csv, and trajectory_covariance.txt (then those of
 // other maps).
-std::vector<RunFile> PoseFiles(const System& system);
+std::vector<RunFile> PoseFiles(const RunResult& result);
 
 // Returns map.plb: the whole atlas (SaveAtlas). The active map is the one with most frames; after a
 // run with read-only maps it is unchanged.
-RunFile MapFile(const System& system);
+RunFile MapFile(const RunResult& result);
 
 // Returns timing.csv, timing.json, and lines.obj, lines.dxf and map.ply (the line map,
-// System::LineMap).
-std::vector<RunFile> DerivedFiles(const System& system);
+// RunResult::LineMap).
+std::vector<RunFile> DerivedFiles(const RunResult& result);
 
 }  // namespace plumbline

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/report/run_folder.h"
-#include "plumbline/slam/system.h"
+#include "plumbline/slam/frame_record.h"
 
 #include <chrono>
 #include <map>

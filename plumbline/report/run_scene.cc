@@ -25,13 +25,13 @@ std::size_t FrameAt(const FrameLog& frames, std::int64_t stamp_ns) {
   return first;
 }
 
-void TakePoses(const System& system,
+void TakePoses(const RunResult& result,
                const Trajectory& trajectory,
                const Similarity3& world_from_map,
                std::vector<std::size_t>& frames,
                std::vector<Rigid3>& poses) {
   for (const StampedPose& pose : trajectory) {
-    frames.push_back(FrameAt(system.frames(), pose.stamp_ns));
+    frames.push_back(FrameAt(result.frames, pose.stamp_ns));
     poses.push_back(TransformPose(world_from_map, pose.world_from_camera));
   }
 }
@@ -42,21 +42,21 @@ Similarity3 WorldFromMap(const MapScene& scene) {
   return scene.error ? scene.error->reference_from_estimate : Similarity3();
 }
 
-MapScene MakeMapScene(const System& system, const Dataset& dataset, const Map& map) {
+MapScene MakeMapScene(const RunResult& result, const Dataset& dataset, const Map& map) {
   MapScene scene;
   scene.id = map.id();
-  scene.error = CompareWithGroundTruth(system, dataset, map.id());
+  scene.error = CompareWithGroundTruth(result, dataset, map.id());
   const Similarity3 world_from_map = WorldFromMap(scene);
-  TakePoses(system, system.FinalTrajectory(map.id()), world_from_map, scene.frames, scene.poses);
-  TakePoses(system,
-            system.KeyFrameTrajectory(map.id()),
+  TakePoses(result, result.FinalTrajectory(map.id()), world_from_map, scene.frames, scene.poses);
+  TakePoses(result,
+            result.KeyFrameTrajectory(map.id()),
             world_from_map,
             scene.keyframe_frames,
             scene.keyframe_poses);
   for (const auto& [id, point] : map.points()) {
     scene.points.push_back(world_from_map * point.position);
   }
-  for (const MappedLine& line : system.LineMap(map.id())) {
+  for (const MappedLine& line : result.LineMap(map.id())) {
     scene.lines.push_back({world_from_map * line.segment.start, world_from_map * line.segment.end});
   }
   scene.keyframe_count = map.keyframes().size();
@@ -106,21 +106,23 @@ Vector3d UpAxis(const MapScene& map) {
 
 }  // namespace
 
-RunScene MakeRunScene(const System& system, const Dataset& dataset, const RunSceneLimits& limits) {
+RunScene MakeRunScene(const RunResult& result,
+                      const Dataset& dataset,
+                      const RunSceneLimits& limits) {
   RunScene scene;
-  scene.reference = ReferenceDuring(system.frames(), dataset);
+  scene.reference = ReferenceDuring(result.frames, dataset);
   if (!scene.reference.empty()) {
     scene.origin = scene.reference.front().world_from_camera.translation;
     scene.up = {0, 0, 1};
   }
-  const auto main = system.MainMap();
+  const auto main = result.MainMap();
   std::map<MapId, Similarity3> world_from_map;
-  for (const auto& [id, map] : system.maps()) {
+  for (const auto& [id, map] : result.atlas.maps()) {
     if (main == id) scene.main = scene.maps.size();
-    scene.maps.push_back(MakeMapScene(system, dataset, map));
+    scene.maps.push_back(MakeMapScene(result, dataset, map));
     world_from_map[id] = WorldFromMap(scene.maps.back());
   }
-  scene.events = PlaceEvents(system.events(), system.maps(), world_from_map);
+  scene.events = PlaceEvents(result.events, result.atlas.maps(), world_from_map);
   if (scene.main) {
     const MapScene& map = scene.maps[*scene.main];
     scene.up = UpAxis(map);

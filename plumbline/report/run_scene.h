@@ -7,7 +7,7 @@
 #include "plumbline/geometry/trajectory.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/report/run_events.h"
-#include "plumbline/slam/system.h"
+#include "plumbline/slam/run_result.h"
 
 #include <cstddef>
 #include <optional>
@@ -20,13 +20,13 @@ namespace plumbline {
 // One map and its tracked frames, for display.
 struct MapScene {
   MapId id;
-  std::vector<std::size_t> frames;           // indices into System::frames(), one for each pose
+  std::vector<std::size_t> frames;           // indices into RunResult::frames, one for each pose
   std::vector<Rigid3> poses;                 // world_from_camera, camera as delivered
   std::vector<std::size_t> keyframe_frames;  // the same indices for the kept keyframes
   std::vector<Rigid3> keyframe_poses;
   // Number of keyframes in the map, including those of earlier runs.
   std::size_t keyframe_count = 0;
-  // Numbers of points in the map, and of lines in its line map (System::LineMap).
+  // Numbers of points in the map, and of lines in its line map (RunResult::LineMap).
   std::size_t point_count = 0, line_count = 0;
   std::vector<Eigen::Vector3d> points;  // displayed points
   std::vector<Segment3> lines;
@@ -59,7 +59,7 @@ struct RunSceneLimits {
 // of the first camera.
 //
 //   cost  O(frames log frames + landmarks)
-RunScene MakeRunScene(const System& system,
+RunScene MakeRunScene(const RunResult& result,
                       const Dataset& dataset,
                       const RunSceneLimits& limits = {});
 

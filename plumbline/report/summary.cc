@@ -3,7 +3,6 @@
 #include "plumbline/report/summary.h"
 
 #include "plumbline/base/options.h"
-#include "plumbline/initialization/initializer.h"
 #include "plumbline/report/error_options.h"
 #include "plumbline/report/timing.h"
 
@@ -115,14 +114,14 @@ std::optional<double> SecondsSinceProcessStart() {
          start_ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
-RunCounts CountRun(const System& system) {
+RunCounts CountRun(const RunResult& result) {
   RunCounts counts;
-  const auto main = system.MainMap();
-  for (const FrameRecord& frame : system.frames()) {
+  const auto main = result.MainMap();
+  for (const FrameRecord& frame : result.frames) {
     ++counts.frames;
     counts.tracked += frame.status == FrameStatus::kTracked;
     counts.in_trajectory +=
-        frame.status == FrameStatus::kTracked && system.atlas().Current(frame.map) == main;
+        frame.status == FrameStatus::kTracked && result.atlas.Current(frame.map) == main;
     counts.lost += frame.status == FrameStatus::kLost;
     counts.skipped += frame.status == FrameStatus::kSkipped;
     counts.dropped += frame.shed == LoadLevel::kFrame;
@@ -132,9 +131,9 @@ RunCounts CountRun(const System& system) {
     counts.demoted += frame.demoted;
     counts.initializing += frame.status == FrameStatus::kInitializing;
   }
-  counts.maps = static_cast<int>(system.maps().size());
+  counts.maps = static_cast<int>(result.atlas.maps().size());
   if (main) {
-    const Map& map = system.maps().at(*main);
+    const Map& map = result.atlas.maps().at(*main);
     counts.keyframes = static_cast<int>(map.keyframes().size());
     counts.points = static_cast<int>(map.points().size());
     counts.lines = static_cast<int>(map.lines().size());
@@ -142,17 +141,17 @@ RunCounts CountRun(const System& system) {
   return counts;
 }
 
-LineMemory MeasureLineMemory(const System& system) {
+LineMemory MeasureLineMemory(const RunResult& result) {
   const auto mean = [](std::size_t bytes, std::size_t count) -> std::optional<double> {
     if (count == 0) return std::nullopt;
     return static_cast<double>(bytes) / static_cast<double>(count);
   };
   LineMemory memory;
-  const AdjustedLines& adjusted = system.adjusted_lines();
+  const AdjustedLines& adjusted = result.adjusted_lines;
   memory.adjustment = mean(adjusted.bytes, adjusted.count);
-  const auto main = system.MainMap();
+  const auto main = result.MainMap();
   if (!main) return memory;
-  const auto& lines = system.maps().at(*main).lines();
+  const auto& lines = result.atlas.maps().at(*main).lines();
   std::size_t bytes = 0;
   for (const auto& [id, line] : lines) {
     bytes += sizeof(line) + line.observations.size() * sizeof(Observations::value_type);
@@ -167,16 +166,16 @@ std::string WhyNoErrors(const DatasetInfo& info) {
                            : "no ground truth to compare with";
 }
 
-std::optional<TrajectoryError> CompareWithGroundTruth(const System& system,
+std::optional<TrajectoryError> CompareWithGroundTruth(const RunResult& result,
                                                       const Dataset& dataset,
                                                       MapId map) {
-  return Compare(system.FinalTrajectory(map), dataset);
+  return Compare(result.FinalTrajectory(map), dataset);
 }
 
-std::optional<TrajectoryError> CompareWithGroundTruth(const System& system,
+std::optional<TrajectoryError> CompareWithGroundTruth(const RunResult& result,
                                                       const Dataset& dataset) {
-  const auto main = system.MainMap();
-  return main ? CompareWithGroundTruth(system, dataset, *main) : std::nullopt;
+  const auto main = result.MainMap();
+  return main ? CompareWithGroundTruth(result, dataset, *main) : std::nullopt;
 }
 
 namespace {
@@ -215,20 +214,12 @@ void AddEvents(const MapEvents& events, Json& json) {
 
 // Adds the number of runs of each stage: the frames or keyframes with a time for it, and the steps
 // of initializations and of line cutting.
-void AddStages(const System& system, Json& json) {
+void AddStages(const RunResult& result, Json& json) {
   std::map<std::string, std::int64_t> stages;
-  for (std::size_t i = 0; i < system.frames().size(); ++i) {
-    for (const StageTime& time : system.frames()[i].times) ++stages[time.stage];
+  for (std::size_t i = 0; i < result.frames.size(); ++i) {
+    for (const StageTime& time : result.frames[i].times) ++stages[time.stage];
   }
-  stages["cut_lines"] = system.cut_lines();
-  if (const auto start = system.initialization_counts()) {
-    stages["start_aligned_images"] = start->aligned_images;
-    stages["start_model_selections"] = start->model_selections;
-    stages["start_pairwise_poses"] = start->pairwise_poses;
-    stages["start_pairwise_factorizations"] = start->pairwise_factorizations;
-    stages["start_interpolated_places"] = start->interpolated_places;
-    stages["start_two_view_solutions"] = start->two_view_solutions;
-  }
+  stages.insert(result.step_counts.begin(), result.step_counts.end());
   json["stages"] = stages;
 }
 
@@ -241,15 +232,15 @@ std::vector<std::string> NotesOf(const RunDescription& description, const Datase
 }
 
 std::string FormatSummary(const RunDescription& description,
-                          const System& system,
+                          const RunResult& result,
                           const Dataset& dataset,
                           const ResourceUse& resources) {
-  const RunCounts counts = CountRun(system);
+  const RunCounts counts = CountRun(result);
   Json json;
   json["version"] = description.version;
   json["data"] = description.data_path;
   json["sensor"] = NameOf(dataset.sensor());
-  json["mode"] = NameOf(system.options().slam.mode);
+  json["mode"] = NameOf(result.options.slam.mode);
   json["seed"] = description.seed;
   json["interrupted"] = description.interrupted ? Json(*description.interrupted) : Json(nullptr);
   json["notes"] = NotesOf(description, dataset);
@@ -260,7 +251,7 @@ std::string FormatSummary(const RunDescription& description,
                     {"lost", counts.lost},
                     {"skipped", counts.skipped},
                     {"dropped", counts.dropped},
-                    {"relocalized", system.events().relocalizations.size()},
+                    {"relocalized", result.events.relocalizations.size()},
                     {"initializing", counts.initializing}};
   json["shed"] = {{"mapping", counts.shed_mapping},
                   {"lines", counts.shed_lines},
@@ -271,21 +262,21 @@ std::string FormatSummary(const RunDescription& description,
   json["keyframes"] = counts.keyframes;
   json["points"] = counts.points;
   json["lines"] = counts.lines;
-  AddEvents(system.events(), json);
-  const auto error = CompareWithGroundTruth(system, dataset);
+  AddEvents(result.events, json);
+  const auto error = CompareWithGroundTruth(result, dataset);
   json["accuracy"] = error ? Accuracy(*error, dataset.sensor(), counts.frames) : Json(nullptr);
   json["no_errors"] = error ? Json(nullptr) : Json(WhyNoErrors(dataset.info()));
-  const auto main = system.MainMap();
-  const auto causal = main ? Compare(system.CausalTrajectory(*main), dataset) : std::nullopt;
+  const auto main = result.MainMap();
+  const auto causal = main ? Compare(result.CausalTrajectory(*main), dataset) : std::nullopt;
   json["accuracy_causal"] =
       causal ? Accuracy(*causal, dataset.sensor(), counts.frames) : Json(nullptr);
-  json["timing"] = Timing(system.frames());
-  AddStages(system, json);
+  json["timing"] = Timing(result.frames);
+  AddStages(result, json);
   json["first_pose_seconds"] = OrNull(resources.first_pose_seconds);
   json["wall_seconds"] = resources.wall_seconds;
   json["cpu_seconds"] = resources.cpu_seconds;
   json["peak_memory_mb"] = resources.peak_memory_mb;
-  const LineMemory memory = MeasureLineMemory(system);
+  const LineMemory memory = MeasureLineMemory(result);
   json["line_bytes"] = {{"map", OrNull(memory.map)}, {"adjustment", OrNull(memory.adjustment)}};
   json["preset"] = description.preset ? Json(*description.preset) : Json(nullptr);
   json["options"] = description.options_yaml;

@@ -4,7 +4,7 @@
 
 #include "plumbline/eval/trajectory_error.h"
 #include "plumbline/io/dataset.h"
-#include "plumbline/slam/system.h"
+#include "plumbline/slam/run_result.h"
 
 #include <cstddef>
 #include <optional>
@@ -39,7 +39,7 @@ struct RunCounts {
   int demoted = 0;  // keyframes dropped because mapping was busy
   int keyframes = 0, points = 0, lines = 0, maps = 0;
 };
-RunCounts CountRun(const System& system);
+RunCounts CountRun(const RunResult& result);
 
 // Mean memory of a line landmark in bytes; nullopt without lines.
 struct LineMemory {
@@ -50,7 +50,7 @@ struct LineMemory {
   // observations and equations.
   std::optional<double> adjustment;
 };
-LineMemory MeasureLineMemory(const System& system);
+LineMemory MeasureLineMemory(const RunResult& result);
 
 // Returns the reason why CompareWithGroundTruth has no errors for a run on this data: "no ground
 // truth with the data", or the file and line at fault.
@@ -59,10 +59,11 @@ std::string WhyNoErrors(const DatasetInfo& info);
 // Compares the final trajectory of a map, or of the main map, with the data set's ground truth:
 // SE(3) alignment, Sim(3) for mono, windows of 3 s. Returns nullopt without ground truth or
 // trajectory, and where fewer than three poses have ground truth.
-std::optional<TrajectoryError> CompareWithGroundTruth(const System& system,
+std::optional<TrajectoryError> CompareWithGroundTruth(const RunResult& result,
                                                       const Dataset& dataset,
                                                       MapId map);
-std::optional<TrajectoryError> CompareWithGroundTruth(const System& system, const Dataset& dataset);
+std::optional<TrajectoryError> CompareWithGroundTruth(const RunResult& result,
+                                                      const Dataset& dataset);
 
 struct RunDescription {
   std::string version;
@@ -84,7 +85,7 @@ std::vector<std::string> NotesOf(const RunDescription& description, const Datase
 
 // Returns the text of summary.json.
 std::string FormatSummary(const RunDescription& description,
-                          const System& system,
+                          const RunResult& result,
                           const Dataset& dataset,
                           const ResourceUse& resources);
 

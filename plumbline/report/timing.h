@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/slam/system.h"
+#include "plumbline/slam/frame_log.h"
 
 #include <cstddef>
 #include <optional>

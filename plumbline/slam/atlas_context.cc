@@ -14,6 +14,9 @@ std::string ResultOptionsYaml(const SlamOptions& options) {
 }
 
 void AddMaps(const Atlas& atlas, const LocalMapper::State& mapper, AtlasContext& context) {
+  // A map that was loaded may be part of another one by now.
+  std::erase_if(context.maps,
+                [&](const auto& of_map) { return atlas.Find(of_map.first) == nullptr; });
   context.stereo_evidence = mapper.stereo_evidence;
   const std::string session = ToString(context.sessions.back().uuid);
   for (const auto& [id, map] : atlas.maps()) {
@@ -23,9 +26,6 @@ void AddMaps(const Atlas& atlas, const LocalMapper::State& mapper, AtlasContext&
   for (const auto& [id, young] : mapper.young) {
     if (atlas.Find(id) != nullptr) context.maps[id].young = young;
   }
-  // A map that was loaded may be part of another one by now.
-  std::erase_if(context.maps,
-                [&](const auto& of_map) { return atlas.Find(of_map.first) == nullptr; });
 }
 
 std::map<MapId, LandmarkIds> YoungOf(const AtlasContext& context) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/front_end.h"
 
+#include "plumbline/base/error.h"
 #include "plumbline/slam/load_control.h"
 
 #include <algorithm>
@@ -15,6 +16,15 @@ ValidRegion RegionOf(const GrayImage& mask) {
 }
 
 }  // namespace
+
+void CheckImages(const Calibration& calibration, const SensorFrame& frame) {
+  if (calibration.right && !frame.right) {
+    throw InputError("images: expected a left and a right image, as calibrated, found one image");
+  }
+  if (!calibration.right && calibration.depth_factor && !frame.depth) {
+    throw InputError("images: expected an image and a depth image, as calibrated, found one image");
+  }
+}
 
 FrontEnd::FrontEnd(const Calibration& calibration, const FeatureOptions& features)
     : options_(features),
@@ -52,6 +62,7 @@ std::shared_ptr<const FrameFeatures> FrontEnd::WithRightLines(
 }
 
 ExtractedFrame FrontEnd::Extract(SensorFrame frame, StageClock clock, LoadLevel shed) const {
+  CheckImages(rectifier_.calibration(), frame);
   ExtractedFrame extracted;
   extracted.shed = shed;
   extracted.stamp_ns = frame.stamp_ns;

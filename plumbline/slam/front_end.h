@@ -14,15 +14,18 @@
 
 namespace plumbline {
 
+// Throws InputError if an image is missing that the calibration requires.
+void CheckImages(const Calibration& calibration, const SensorFrame& frame);
+
 // Extracts features from images: the stage that needs no map and no earlier frame.
 class FrontEnd {
  public:
   // Throws InputError for an unusable calibration.
   FrontEnd(const Calibration& calibration, const FeatureOptions& features);
 
-  // Rectifies the images and extracts features. Throws InputError if the size of an image differs
-  // from the calibration. Thread-safe; the same frame gives the same features. With `shed`, fewer
-  // lines or points are extracted.
+  // Rectifies the images and extracts features. Throws InputError if an image is missing
+  // (CheckImages) or its size differs from the calibration. Thread-safe; the same frame gives the
+  // same features. With `shed`, fewer lines or points are extracted.
   ExtractedFrame Extract(SensorFrame frame,
                          StageClock clock = {},
                          LoadLevel shed = LoadLevel::kNothing) const;

@@ -55,12 +55,17 @@ struct MapEventCounts {
   std::size_t relocalizations = 0;
 };
 
-// Returns the events of one kind after the first `known`, and counts them as known.
+// Returns the events of one kind, or of all, after the first `known`, and counts them as known.
 template <class Event>
 std::vector<Event> TakeNew(const std::vector<Event>& all, std::size_t& known) {
   std::vector<Event> fresh(all.begin() + static_cast<std::ptrdiff_t>(known), all.end());
   known = all.size();
   return fresh;
+}
+inline MapEvents TakeNew(const MapEvents& all, MapEventCounts& known) {
+  return {TakeNew(all.loops, known.loops),
+          TakeNew(all.joins, known.joins),
+          TakeNew(all.relocalizations, known.relocalizations)};
 }
 
 }  // namespace plumbline

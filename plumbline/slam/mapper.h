@@ -23,6 +23,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -119,6 +120,8 @@ class Mapper {
   void MoveFirstKeyFramesBack(Atlas& atlas) const;
 
   const Atlas& atlas() const { return atlas_; }
+  // Takes the maps out, as the last step of a run; afterwards there are none.
+  Atlas TakeAtlas() { return std::exchange(atlas_, {}); }
   // Closed loops and merged maps, the oldest first.
   const PlaceRecognition& places() const { return places_; }
   // Number and memory of the lines in local bundle adjustment; the mapper's state of the maps.

@@ -238,6 +238,11 @@ const Atlas& MapperThread::atlas() const {
   return mapper_.atlas();
 }
 
+Atlas MapperThread::TakeAtlas() {
+  CheckMappingDone();
+  return mapper_.TakeAtlas();
+}
+
 const AdjustedLines& MapperThread::adjusted_lines() const {
   CheckMappingDone();
   return mapper_.adjusted_lines();

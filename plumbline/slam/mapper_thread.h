@@ -119,6 +119,8 @@ class MapperThread {
   // map, and each start of one, was atomic (Map::Undo).
   const Atlas& atlas() const;
   const std::map<MapId, Map>& maps() const { return atlas().maps(); }
+  // Takes the maps out, as the last step of a run; afterwards there are none.
+  Atlas TakeAtlas();
 
   // Returns the keyframes not mapped because mapping failed, the newest first; none before a
   // failure. Keyframes that start maps are left out, since they have no parent.

@@ -58,10 +58,14 @@ void Pipeline::Drain() {
   }
 }
 
-void Pipeline::Finish(const StopCheck& stop) {
+RunResult Pipeline::Finish(const StopCheck& stop, std::exception_ptr* failure) {
   Drain();
-  system_.Finish(stop);
-  RethrowFailure();
+  std::exception_ptr first;
+  RunResult result = system_.Finish(stop, &first);
+  if (!first) first = failure_;
+  if (failure != nullptr) *failure = first;
+  if (failure == nullptr && first) std::rethrow_exception(first);
+  return result;
 }
 
 void Pipeline::Hand(Job job) {

@@ -36,8 +36,8 @@ namespace plumbline {
 //   System system(calibration, options);
 //   Pipeline pipeline(system, [](const FrameRecord& record, const FrameView&) { Show(record); });
 //   while (camera.IsOn()) pipeline.Feed(camera.Next());
-//   pipeline.Finish();
-//   if (const auto map = system.MainMap()) Use(system.FinalTrajectory(*map));
+//   const RunResult result = pipeline.Finish();
+//   if (const auto map = result.MainMap()) Use(result.FinalTrajectory(*map));
 //
 // One thread feeds. Until Finish only the pipeline uses the system, and its observer, which may
 // call the functions of System that are for the tracking thread. Exceptions of a stage are rethrown
@@ -70,10 +70,11 @@ class Pipeline {
   void Skip(std::int64_t stamp_ns, const std::string& reason);
   // Waits until all frames handed over so far are tracked, or until a failure ends the tracking.
   void Drain();
-  // Executes all waiting jobs and the mapping of their frames (System::Finish, which gets `stop`).
-  // After a failure it completes the mapping of the frames before, then rethrows. To be called
+  // Executes all waiting jobs and finishes the system (System::Finish, which gets `stop`). After a
+  // failure of tracking it completes the mapping of the frames before. The failure is stored
+  // in `failure`, beside the result so far; without `failure` it is thrown. To be called once,
   // after the last frame.
-  void Finish(const StopCheck& stop = {});
+  RunResult Finish(const StopCheck& stop = {}, std::exception_ptr* failure = nullptr);
 
   // Executes the next job in the caller's thread; returns false if none waits. For live runs
   // without threads (Execution of the System).

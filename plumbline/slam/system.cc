@@ -5,7 +5,6 @@
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/camera_difference.h"
 #include "plumbline/geometry/covariance.h"
-#include "plumbline/mapping/line_map.h"
 #include "plumbline/slam/atlas_context.h"
 #include "plumbline/slam/saved_options.h"
 #include "plumbline/slam/system_methods.h"
@@ -60,6 +59,7 @@ System::System(const Calibration& calibration,
     monocular_initialization_ =
         std::make_unique<MonocularInitialization>(imaging_, options_, methods, front_end_.helper());
   }
+  BeginResult();
 }
 
 System::~System() = default;
@@ -70,17 +70,15 @@ void System::Observe(std::function<void(const Atlas&, const LoopAttempt&)> obser
 
 std::size_t System::TasksWaiting() const { return mapping_.Waiting(); }
 bool System::MapOnce() { return mapping_.WorkOnce(); }
-const Atlas& System::atlas() const { return mapping_.atlas(); }
-const AdjustedLines& System::adjusted_lines() const { return mapping_.adjusted_lines(); }
+void System::WaitForMapping() {
+  Complete();
+  mapping_.WaitUntilDone();
+}
 const Rectifier& System::rectifier() const { return front_end_.rectifier(); }
 
-std::optional<InitializationCounts> System::initialization_counts() const {
-  if (!monocular_initialization_) return std::nullopt;
-  return monocular_initialization_->counts();
-}
-
 void System::CheckStamp(std::int64_t stamp_ns) const {
-  if (frames_.empty() || stamp_ns > newest_.stamp_ns) return;
+  PLUMBLINE_CHECK(!finished_, "a finished run takes no frames");
+  if (result_.frames.empty() || stamp_ns > newest_.stamp_ns) return;
   throw InputError(
       fmt::format("expected a frame after {} ns, found one of {} ns", newest_.stamp_ns, stamp_ns));
 }
@@ -89,7 +87,7 @@ const FrameRecord& System::Skip(std::int64_t stamp_ns, const std::string& reason
   Complete();
   CheckStamp(stamp_ns);
   FrameRecord record;
-  record.id = FrameId{static_cast<std::int64_t>(frames_.size())};
+  record.id = FrameId{static_cast<std::int64_t>(result_.frames.size())};
   record.stamp_ns = stamp_ns;
   record.reason = reason;
   record.shed = shed;
@@ -97,23 +95,17 @@ const FrameRecord& System::Skip(std::int64_t stamp_ns, const std::string& reason
 }
 
 const FrameRecord& System::Keep(FrameRecord record) {
-  frames_.Add(record);
+  result_.frames.Add(record);
+  if (!result_.read_only) {
+    Session& session = result_.context.sessions.back();
+    if (result_.frames.size() == 1) session.first_stamp_ns = record.stamp_ns;
+    session.last_stamp_ns = record.stamp_ns;
+  }
   newest_ = std::move(record);
   return newest_;
 }
 
-void System::CheckImages(const SensorFrame& frame) const {
-  const Calibration& calibration = rectifier().calibration();
-  if (calibration.right && !frame.right) {
-    throw InputError("images: expected a left and a right image, as calibrated, found one image");
-  }
-  if (!calibration.right && calibration.depth_factor && !frame.depth) {
-    throw InputError("images: expected an image and a depth image, as calibrated, found one image");
-  }
-}
-
 ExtractedFrame System::Extract(SensorFrame frame, StageClock clock, LoadLevel shed) const {
-  CheckImages(frame);
   return front_end_.Extract(std::move(frame), std::move(clock), shed);
 }
 
@@ -126,9 +118,9 @@ const FrameRecord& System::Process(SensorFrame frame) {
 const FrameRecord& System::Track(ExtractedFrame extracted) {
   Complete();
   CheckStamp(extracted.stamp_ns);
-  if (session_.uuid == Uuid()) session_.uuid = SessionUuid(extracted);
+  if (!result_.read_only && result_.context.sessions.back().uuid == Uuid()) NameSession(extracted);
   FrameRecord record;
-  record.id = FrameId{static_cast<std::int64_t>(frames_.size())};
+  record.id = FrameId{static_cast<std::int64_t>(result_.frames.size())};
   record.stamp_ns = extracted.stamp_ns;
   record.shed = extracted.shed;
   mapping_.Lighten(extracted.shed);
@@ -200,7 +192,7 @@ void System::Complete() {
   clock.Done("after_keyframe");
   const std::vector<StageTime> times = clock.Stages();
   newest_.times.insert(newest_.times.end(), times.begin(), times.end());
-  frames_.AddTimes(times);
+  result_.frames.AddTimes(times);
 }
 
 void System::CompleteRightLines(UnfinishedFrame& unfinished, StageClock& clock) {
@@ -224,22 +216,22 @@ std::shared_ptr<const MapSnapshot> System::TakeRelocalized(FrameId frame) {
   if (TrackedSince(outcome->found->frame.id)) return nullptr;
   tracker_.FollowFrom(*outcome->found, *outcome->snapshot);
   mapping_.Use(outcome->snapshot);
-  if (outcome->snapshot->map != map_ && !read_only_) {
+  if (outcome->snapshot->map != map_ && !result_.read_only) {
     mapping_.Submit(frame.value, SwitchMap{outcome->snapshot->map, outcome->found->keyframe});
     if (monocular_initialization_) monocular_initialization_->MapLeft();
   }
-  relocalizations_.push_back({outcome->found->frame.id,
-                              outcome->found->keyframe,
-                              outcome->found->counts.inlier_points,
-                              outcome->found->counts.inlier_lines});
+  result_.events.relocalizations.push_back({outcome->found->frame.id,
+                                            outcome->found->keyframe,
+                                            outcome->found->counts.inlier_points,
+                                            outcome->found->counts.inlier_lines});
   return outcome->snapshot;
 }
 
 // Relocalization is outdated if the camera was tracked and lost again meanwhile: it may have made
 // keyframes that are not in the snapshot around that place.
 bool System::TrackedSince(FrameId frame) const {
-  for (std::size_t i = frames_.size(); i-- > static_cast<std::size_t>(frame.value) + 1;) {
-    if (frames_[i].status == FrameStatus::kTracked) return true;
+  for (std::size_t i = result_.frames.size(); i-- > static_cast<std::size_t>(frame.value) + 1;) {
+    if (result_.frames[i].status == FrameStatus::kTracked) return true;
   }
   return false;
 }
@@ -260,7 +252,7 @@ std::vector<std::string> System::Continue(SavedAtlas saved, bool read_only) {
   }
   if (saved.atlas.empty()) throw InputError("expected a map to go on in, found none");
   const AtlasContext& context = saved.context;
-  if (const auto difference = CameraDifference({context.camera}, {camera()})) {
+  if (const auto difference = CameraDifference({context.camera}, {result_.camera})) {
     throw InputError("expected a map of the same rectified camera, found " + *difference);
   }
   const double scale = options_.features.orb.scale_factor;
@@ -269,31 +261,39 @@ std::vector<std::string> System::Continue(SavedAtlas saved, bool read_only) {
                                  context.octave_scale,
                                  scale));
   }
-  map_ = saved.atlas.active_id();
-  next_map_ = saved.atlas.NextMapId().value;
-  first_keyframe_ = saved.atlas.NextKeyFrameId();
-  read_only_ = read_only;
-  loaded_ = std::move(saved.context);
-  tracker_.BeginLost({first_keyframe_, read_only, options_.relocalization.patience});
-  LocalMapper::State mapper;
-  mapper.young = YoungOf(*loaded_);
-  const AtlasContext now = ContextWithoutMaps();
-  if (!CameraDifference({loaded_->camera, loaded_->rectified_from_left},
-                        {now.camera, now.rectified_from_left})) {
-    mapper.stereo_evidence = loaded_->stereo_evidence;
-  }
-  mapping_.Continue(std::move(saved.atlas), mapper);
-  std::vector<std::string> notes = FrontEndDifferences(*loaded_, now);
+  const AtlasContext& now = result_.context;
+  std::vector<std::string> notes = FrontEndDifferences(context, now);
   for (std::string& note : notes) note = "the map was made with another front end: " + note;
-  const std::vector<std::string> system = SystemDifferences(*loaded_, now);
+  const std::vector<std::string> system = SystemDifferences(context, now);
   if (!system.empty()) {
     notes.push_back(fmt::format("the map was made by another system: {}", fmt::join(system, "; ")));
   }
+  LocalMapper::State mapper;
+  mapper.young = YoungOf(context);
+  if (!CameraDifference({context.camera, context.rectified_from_left},
+                        {now.camera, now.rectified_from_left})) {
+    mapper.stereo_evidence = context.stereo_evidence;
+  }
+  map_ = saved.atlas.active_id();
+  next_map_ = saved.atlas.NextMapId().value;
+  result_.first_keyframe = saved.atlas.NextKeyFrameId();
+  tracker_.BeginLost({result_.first_keyframe, read_only, options_.relocalization.patience});
+  mapping_.Continue(std::move(saved.atlas), mapper);
+  ContinueContext(std::move(saved.context), read_only);
   return notes;
 }
 
-SessionId System::session_id() const {
-  return SessionId{loaded_ ? static_cast<std::int64_t>(loaded_->sessions.size()) : 0};
+// The maps that are only read keep their context; to others this session is added.
+void System::ContinueContext(AtlasContext loaded, bool read_only) {
+  result_.read_only = read_only;
+  AtlasContext& context = result_.context;
+  if (read_only) {
+    context = std::move(loaded);
+    return;
+  }
+  loaded.sessions.push_back(std::move(context.sessions.back()));
+  context.sessions = std::move(loaded.sessions);
+  context.maps = std::move(loaded.maps);
 }
 
 // Offers a frame of a single camera that has no map yet to the start of one. Most frames start
@@ -330,13 +330,14 @@ TrackingResult System::StartFrom(const InitialMap& initial, FrameRecord& record)
   RecordTracking(result, record);
   record.keyframe = true;
   for (std::size_t i = 0; i + 1 < start.frames.size(); ++i) {
-    frames_.Change(static_cast<std::size_t>(start.frames[i].value), [&](FrameRecord& earlier) {
-      earlier.status = FrameStatus::kTracked;
-      earlier.reason.clear();
-      earlier.map = map_;
-      earlier.reference = start.keyframes[i];
-      earlier.keyframe = true;
-    });
+    result_.frames.Change(static_cast<std::size_t>(start.frames[i].value),
+                          [&](FrameRecord& earlier) {
+                            earlier.status = FrameStatus::kTracked;
+                            earlier.reason.clear();
+                            earlier.map = map_;
+                            earlier.reference = start.keyframes[i];
+                            earlier.keyframe = true;
+                          });
   }
   return result;
 }
@@ -348,9 +349,9 @@ void System::Demote(const DroppedKeyFrame& gone) {
   if (monocular_initialization_)
     monocular_initialization_->ReparentPoses(gone.id, gone.parent, gone.from_parent);
   const auto made = static_cast<std::size_t>(gone.frame.value);
-  for (std::size_t i = frames_.size(); i-- > made;) {
-    if (frames_.ReferenceOf(i) != gone.id && i != made) continue;
-    frames_.Change(i, [&](FrameRecord& record) {
+  for (std::size_t i = result_.frames.size(); i-- > made;) {
+    if (result_.frames.ReferenceOf(i) != gone.id && i != made) continue;
+    result_.frames.Change(i, [&](FrameRecord& record) {
       if (record.reference == gone.id) {
         record.reference = gone.parent;
         record.from_reference = Chained(record.from_reference, gone.from_parent);
@@ -379,7 +380,8 @@ void System::RecordTracking(const TrackingResult& result, FrameRecord& record) {
   record.map = map_;
   record.reference = result.reference;
   record.from_reference = result.from_reference;
-  record.causal_world_from_camera = AsDelivered(*result.cam_from_world);
+  record.causal_world_from_camera =
+      DeliveredPose(*result.cam_from_world, result_.rectified_from_left);
   if (result.covariance) {
     record.causal_covariance = PoseCovarianceInWorld(*result.cam_from_world, *result.covariance);
   }
@@ -397,183 +399,65 @@ std::vector<StageTime> System::TakeMappingTimes() {
 // Marks them as lost if it has none, or if tracking failed before it handed the keyframe over.
 void System::LoseFramesNotMapped() {
   for (const DroppedKeyFrame& gone : mapping_.NotMapped()) Demote(gone);
+  const Atlas& atlas = mapping_.atlas();
   const auto has_place = [&](const FrameRecord& record) {
-    const Map* map = atlas().Find(atlas().Current(record.map));
+    const Map* map = atlas.Find(atlas.Current(record.map));
     return map != nullptr && map->Knows(record.reference);
   };
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    const FrameRecord record = frames_[i];
+  for (std::size_t i = 0; i < result_.frames.size(); ++i) {
+    const FrameRecord record = result_.frames[i];
     if (record.status != FrameStatus::kTracked || has_place(record)) continue;
-    frames_.Change(i, [](FrameRecord& lost) {
+    result_.frames.Change(i, [](FrameRecord& lost) {
       lost.status = FrameStatus::kLost;
       lost.reason = kNotMapped;
     });
   }
 }
 
-void System::CopyMaps(std::function<void(SavedAtlas)> take) {
-  Complete();
-  const bool as_loaded = loaded_ && read_only_;  // as Context() has it
-  mapping_.Submit(
-      newest_.id.value,
-      MapReader{[this,
-                 as_loaded,
-                 context = as_loaded ? *loaded_ : ContextWithoutMaps(),
-                 take = std::move(take)](
-                    const Atlas& atlas, const LocalMapper& mapper, const PlaceRecognition&) {
-        SavedAtlas copy{atlas, context};
-        if (!as_loaded) AddMaps(atlas, mapper.state(), copy.context);
-        mapping_.MoveFirstKeyFramesBack(copy.atlas);
-        take(std::move(copy));
-      }});
-}
-
-SavedAtlas System::CopyMaps() {
-  SavedAtlas copied;
-  CopyMaps([&copied](SavedAtlas copy) { copied = std::move(copy); });
-  mapping_.WaitUntilDone();
-  return copied;
-}
-
-void System::ReadMaps(std::function<void(const Atlas&, const MapEvents&)> look) {
-  Complete();
-  mapping_.Submit(
-      newest_.id.value,
-      MapReader{[look = std::move(look)](
-                    const Atlas& atlas, const LocalMapper&, const PlaceRecognition& places) {
-        look(atlas, {places.loops(), places.joins(), {}});
-      }});
-}
-
-void System::Finish(const StopCheck& stop) {
-  line_maps_.clear();
-  std::exception_ptr failure;
-  const auto keeping = [&failure](const auto& step) {
+RunResult System::Finish(const StopCheck& stop, std::exception_ptr* failure) {
+  PLUMBLINE_CHECK(!finished_, "a run is finished once");
+  std::exception_ptr first;
+  const auto keeping = [&first](const auto& step) {
     try {
       step();
     } catch (...) {
-      if (!failure) failure = std::current_exception();
+      if (!first) first = std::current_exception();
     }
   };
   keeping([&] { Complete(); });
   keeping([&] { mapping_.Finish(stop); });
-  LoseFramesNotMapped();
-  if (failure) std::rethrow_exception(failure);
+  keeping([&] { LoseFramesNotMapped(); });
+  if (!first) keeping([&] { LocateEarlyFrames(stop); });
+  keeping([&] { CollectMaps(); });
+  finished_ = true;
+  if (failure != nullptr) *failure = first;
+  if (failure == nullptr && first) std::rethrow_exception(first);
+  return std::move(result_);
+}
+
+// Gives frames from before a monocular map, and early ones in it, their poses in the finished map.
+void System::LocateEarlyFrames(const StopCheck& stop) {
   const std::vector<StageTime> times = TakeMappingTimes();
-  if (!frames_.empty()) frames_.AddTimes(times);
+  if (!result_.frames.empty()) result_.frames.AddTimes(times);
   if (!monocular_initialization_) return;
-  for (const EarlierFrame& earlier : monocular_initialization_->Locate(atlas(), stop)) {
-    frames_.Change(static_cast<std::size_t>(earlier.id.value), [&](FrameRecord& record) {
+  for (const EarlierFrame& earlier : monocular_initialization_->Locate(mapping_.atlas(), stop)) {
+    const auto change = [&](FrameRecord& record) {
       record.status = FrameStatus::kTracked;
       record.reason.clear();
       record.map = earlier.map;
       record.reference = earlier.reference;
       record.from_reference = earlier.from_reference;
       record.counts = earlier.counts;
-    });
+    };
+    result_.frames.Change(static_cast<std::size_t>(earlier.id.value), change);
   }
-}
-
-Rigid3 System::AsDelivered(const Rigid3& rectified_cam_from_world) const {
-  const Rigid3 rectified_from_delivered{rectifier().rectified_left_from_left(),
-                                        Eigen::Vector3d::Zero()};
-  return Inverse(rectified_cam_from_world) * rectified_from_delivered;
-}
-
-const Map& System::MapOf(MapId id) const {
-  if (const Map* map = atlas().Find(id)) return *map;
-  throw InputError(
-      fmt::format("map {}: expected one of the {} maps of the run", id.value, maps().size()));
-}
-
-Trajectory System::FinalTrajectory(MapId map) const {
-  Trajectory trajectory;
-  const Map& owner = MapOf(map);
-  for (const FrameRecord& record : frames_) {
-    if (record.status != FrameStatus::kTracked || atlas().Current(record.map) != map) continue;
-    if (!owner.Knows(record.reference)) continue;  // Finish failed before it lost the frame
-    trajectory.push_back(
-        {record.stamp_ns,
-         AsDelivered(ComposePose(owner.PlaceOf(record.reference), record.from_reference))});
-  }
-  return trajectory;
-}
-
-MapEvents System::events() const {
-  MapEvents events = mapping_.events();
-  events.relocalizations = relocalizations_;
-  return events;
-}
-
-MapEvents System::EventsSoFar() const {
-  MapEventCounts none;
-  return EventsSince(none);
 }
 
 MapEvents System::EventsSince(MapEventCounts& known) const {
+  PLUMBLINE_CHECK(!finished_, "the events of a finished run are in its result");
   MapEvents events = mapping_.EventsSince(known);
-  events.relocalizations = TakeNew(relocalizations_, known.relocalizations);
+  events.relocalizations = TakeNew(result_.events.relocalizations, known.relocalizations);
   return events;
-}
-
-const std::vector<MappedLine>& System::LineMap(MapId map, const StopCheck& stop) const {
-  const auto made = line_maps_.find(map);
-  if (made != line_maps_.end()) return made->second;
-  const Map& owner = MapOf(map);
-  return line_maps_[map] = MakeLineMap(owner, imaging_, options_.mapping.line_map, stop);
-}
-
-Trajectory System::KeyFrameTrajectory(MapId map) const {
-  Trajectory trajectory;
-  const Map& owner = MapOf(map);
-  for (const auto& [id, keyframe] : owner.keyframes()) {
-    if (id < first_keyframe_) continue;
-    trajectory.push_back({keyframe.frame.stamp_ns, AsDelivered(keyframe.frame.cam_from_world)});
-  }
-  return trajectory;
-}
-
-Trajectory System::CausalTrajectory(MapId map) const {
-  Trajectory trajectory;
-  for (const FrameRecord& record : frames_) {
-    if (record.causal_world_from_camera && record.map == map) {
-      trajectory.push_back({record.stamp_ns, *record.causal_world_from_camera});
-    }
-  }
-  return trajectory;
-}
-
-std::vector<StampedCovariance> System::CausalCovariances(MapId map) const {
-  std::vector<StampedCovariance> covariances;
-  for (const FrameRecord& record : frames_) {
-    if (record.causal_covariance && record.map == map) {
-      covariances.push_back({record.stamp_ns, *record.causal_covariance});
-    }
-  }
-  return covariances;
-}
-
-Session System::session() const {
-  Session session = session_;
-  if (!frames_.empty()) {
-    session.first_stamp_ns = frames_.StampOf(0);
-    session.last_stamp_ns = newest_.stamp_ns;
-  }
-  return session;
-}
-
-void System::DescribeSession(const std::string& program) { session_.program = program; }
-
-std::optional<MapId> System::MainMap() const {
-  std::map<MapId, int> frames;
-  for (const FrameRecord& record : frames_) {
-    if (record.status == FrameStatus::kTracked) ++frames[atlas().Current(record.map)];
-  }
-  std::optional<MapId> main;
-  for (const auto& [id, count] : frames) {
-    if (!main || count > frames[*main]) main = id;
-  }
-  return main;
 }
 
 }  // namespace plumbline

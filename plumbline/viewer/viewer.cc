@@ -218,9 +218,7 @@ void Viewer::Show(const FrameRecord& record,
         lock, [&] { return mail_.frames.size() < kMostFramesWaiting || !record_all_ || broken_; });
   }
   mail_.counts = counts_;
-  for (; relocalizations_ < relocalizations.size(); ++relocalizations_) {
-    mail_.events.push_back(EventOf(relocalizations[relocalizations_]));
-  }
+  for (const Relocalization& found : relocalizations) mail_.events.push_back(EventOf(found));
   if (frame) mail_.frames.push_back(*std::move(frame));
   if (mail_.frames.size() > kMostFramesWaiting) {
     mail_.frames.pop_front();

@@ -84,7 +84,7 @@ class Viewer {
 
   // --- in the tracking thread ---
 
-  // Shows a frame; call it after each frame. relocalizations: all so far.
+  // Shows a frame; call it after each frame. relocalizations: those since the last call.
   void Show(const FrameRecord& record,
             const FrameView& view,
             std::span<const Relocalization> relocalizations);
@@ -155,7 +155,7 @@ class Viewer {
   bool looking_ = false;           // ReadMaps should be called
   bool map_is_to_be_seen_ = true;  // a part of the map has not been read
   Clock::time_point next_look_;
-  std::size_t loops_ = 0, joins_ = 0, relocalizations_ = 0;  // reported numbers
+  std::size_t loops_ = 0, joins_ = 0;  // reported numbers
   ViewedCounts counts_;
   std::deque<Clock::time_point> arrivals_;  // arrival times of the last frames
 

@@ -61,8 +61,8 @@ Outcome RunPoster(std::size_t from, const std::function<void()>& fail, RunMode m
   }
   const std::string causal = Contents(folder.part() / "trajectory_causal.txt");
   outcome.rows = std::count(causal.begin(), causal.end(), '\n');
-  outcome.frames = system.frames().size();
-  outcome.poses = system.FinalTrajectory(MapId{0}).size();
+  outcome.frames = processed.result.frames.size();
+  outcome.poses = processed.result.FinalTrajectory(MapId{0}).size();
   return outcome;
 }
 

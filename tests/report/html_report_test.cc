@@ -86,11 +86,11 @@ TEST(HtmlReport, SaysWhatInterruptedTheRun) {
   const PosterRun run;
   ReportContext context = ContextOf(run);
   context.description.frames_chosen = 6;
-  const auto whole = DataOf(FormatHtmlReport(run.system(), PosterDataset(6), context));
+  const auto whole = DataOf(FormatHtmlReport(run.result(), PosterDataset(6), context));
   EXPECT_TRUE(whole["run"]["interrupted"].is_null());
   context.description.interrupted = "SIGHUP";
   context.description.frames_chosen = 50;
-  const std::string page = FormatHtmlReport(run.system(), PosterDataset(6), context);
+  const std::string page = FormatHtmlReport(run.result(), PosterDataset(6), context);
   EXPECT_EQ(DataOf(page)["run"]["interrupted"], "SIGHUP");
   EXPECT_EQ(DataOf(page)["run"]["frames_chosen"], 50);
   EXPECT_THAT(page, HasSubstr("Interrupted by ${interrupted}"));
@@ -98,7 +98,7 @@ TEST(HtmlReport, SaysWhatInterruptedTheRun) {
 
 TEST(HtmlReport, HoldsTheWholeRun) {
   const PosterRun run;
-  const auto json = DataOf(FormatHtmlReport(run.system(), PosterDataset(6), ContextOf(run)));
+  const auto json = DataOf(FormatHtmlReport(run.result(), PosterDataset(6), ContextOf(run)));
   EXPECT_EQ(json["run"]["date"], "2026-01-02 03:04 UTC");
   EXPECT_EQ(json["run"]["command"], "plumbline run some/folder --quiet");
   EXPECT_EQ(json["run"]["peak_memory_mb"], 30);
@@ -125,7 +125,7 @@ TEST(HtmlReport, ShowsEveryNthFrameOfALongRun) {
   const PosterRun run;
   ReportContext context = ContextOf(run);
   context.most_frames = 1;
-  const std::string page = FormatHtmlReport(run.system(), PosterDataset(6), context);
+  const std::string page = FormatHtmlReport(run.result(), PosterDataset(6), context);
   const auto json = DataOf(page);
   EXPECT_EQ(json["shown_every"], 6);
   // The first and the last, those around a change of state, and that of the image.
@@ -145,7 +145,7 @@ TEST(HtmlReport, ShowsEveryNthFrameOfALongRun) {
   EXPECT_THAT(page, HasSubstr("are shown one by one: one in ${whole(every)}"));
 
   context.samples.clear();
-  const auto fewer = DataOf(FormatHtmlReport(run.system(), PosterDataset(6), context));
+  const auto fewer = DataOf(FormatHtmlReport(run.result(), PosterDataset(6), context));
   EXPECT_EQ(fewer["frames"]["number"], nlohmann::json({0, 1, 2, 5}));
   EXPECT_EQ(fewer["scene"]["maps"][0]["frames"], nlohmann::json({0, 1, 3}));
   EXPECT_EQ(fewer["scene"]["maps"][0]["pose_count"], 4);
@@ -155,7 +155,7 @@ TEST(HtmlReport, ShowsEveryNthFrameOfALongRun) {
 
 TEST(HtmlReport, HoldsTheMapRelativeToItsOrigin) {
   const PosterRun run;
-  const auto json = DataOf(FormatHtmlReport(run.system(), PosterDataset(6), ContextOf(run)));
+  const auto json = DataOf(FormatHtmlReport(run.result(), PosterDataset(6), ContextOf(run)));
   const auto& scene = json["scene"];
   ASSERT_EQ(scene["maps"].size(), 1U);
   EXPECT_EQ(scene["main"], 0);
@@ -182,15 +182,15 @@ TEST(HtmlReport, CountsTheKeyframesOfEarlierRunsInTheMapOfTwo) {
   const MovingPoster poster;
   System first(MovingPoster::MakeCalibration(), options);
   for (int i = 0; i < 40; ++i) first.Process(poster.Frame(i));
-  first.Finish();
+  const RunResult made = first.Finish();
   System second(MovingPoster::MakeCalibration(), options);
-  second.Continue({first.atlas(), first.Context()}, true);
+  second.Continue({made.atlas, made.context}, true);
   for (int i = 10; i < 20; ++i) second.Process(poster.Frame(i));
-  second.Finish();
-  const std::string page = FormatHtmlReport(second, PosterDataset(20), {});
+  const RunResult result = second.Finish();
+  const std::string page = FormatHtmlReport(result, PosterDataset(20), {});
   const auto json = DataOf(page);
   const auto& map = json["scene"]["maps"][0];
-  EXPECT_EQ(map["keyframe_count"], first.maps().begin()->second.keyframes().size());
+  EXPECT_EQ(map["keyframe_count"], made.atlas.maps().begin()->second.keyframes().size());
   EXPECT_EQ(map["keyframe_count"], json["counts"]["keyframes"]);
   EXPECT_TRUE(map["keyframe_frames"].empty());
   EXPECT_THAT(page, HasSubstr("plural(map.keyframe_count, \"keyframe\")"));
@@ -198,15 +198,15 @@ TEST(HtmlReport, CountsTheKeyframesOfEarlierRunsInTheMapOfTwo) {
 
 TEST(HtmlReport, TellsOfPlacesThatWereSeenAgain) {
   const PosterRun run;
-  const auto plain = DataOf(FormatHtmlReport(run.system(), PosterDataset(6), ContextOf(run)));
+  const auto plain = DataOf(FormatHtmlReport(run.result(), PosterDataset(6), ContextOf(run)));
   EXPECT_EQ(plain["scene"]["events"], nlohmann::json::array());
 
   // A camera that begins in a saved map is found by what it sees.
   System second(MovingPoster::MakeCalibration(), {});
-  second.Continue({run.system().atlas(), run.system().Context()}, false);
+  second.Continue({run.result().atlas, run.result().context}, false);
   for (int i = 0; i < 6; ++i) second.Process(MovingPoster().Frame(i));
-  second.Finish();
-  const std::string page = FormatHtmlReport(second, PosterDataset(6), ContextOf(run));
+  const RunResult result = second.Finish();
+  const std::string page = FormatHtmlReport(result, PosterDataset(6), ContextOf(run));
   const auto events = DataOf(page)["scene"]["events"];
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0]["kind"], "relocalization");
@@ -222,8 +222,8 @@ TEST(HtmlReport, TellsOfPlacesThatWereSeenAgain) {
 TEST(HtmlReport, TellsTheOptionsThatDifferFromTheDefaults) {
   SlamOptions options;
   options.slam.lag = 3;
-  const System system(MovingPoster::MakeCalibration(), options);
-  const auto json = DataOf(FormatHtmlReport(system, PosterDataset(6), {}));
+  System system(MovingPoster::MakeCalibration(), options);
+  const auto json = DataOf(FormatHtmlReport(system.Finish(), PosterDataset(6), {}));
   std::vector<std::string> different;
   for (const auto& option : json["run"]["options"]) {
     if (option["value"] != option["default"]) different.push_back(option["key"]);
@@ -236,16 +236,16 @@ TEST(HtmlReport, NamesThePresetAboveTheOptions) {
   const PosterRun run;
   ReportContext context = ContextOf(run);
   EXPECT_TRUE(
-      DataOf(FormatHtmlReport(run.system(), PosterDataset(6), context))["run"]["preset"].is_null());
+      DataOf(FormatHtmlReport(run.result(), PosterDataset(6), context))["run"]["preset"].is_null());
   context.description.preset = "rippl";
-  const std::string page = FormatHtmlReport(run.system(), PosterDataset(6), context);
+  const std::string page = FormatHtmlReport(run.result(), PosterDataset(6), context);
   EXPECT_EQ(DataOf(page)["run"]["preset"], "rippl");
   EXPECT_THAT(page, HasSubstr("The options begin with those of the preset"));
 }
 
 TEST(HtmlReport, ShowsSampleImagesWithTheirFeatures) {
   const PosterRun run;
-  const auto json = DataOf(FormatHtmlReport(run.system(), PosterDataset(6), ContextOf(run)));
+  const auto json = DataOf(FormatHtmlReport(run.result(), PosterDataset(6), ContextOf(run)));
   ASSERT_EQ(json["samples"].size(), 1U);
   const auto& sample = json["samples"][0];
   EXPECT_EQ(sample["frame"], 3);
@@ -289,7 +289,7 @@ TEST(HtmlReport, EscapesNamesFromOutside) {
   context.description.data_path = "/data/" + hostile;
   context.description.arguments = {hostile, "it's"};
   const PosterDataset dataset(6, true, hostile);
-  const std::string page = FormatHtmlReport(run.system(), dataset, context);
+  const std::string page = FormatHtmlReport(run.result(), dataset, context);
   EXPECT_THAT(page, Not(HasSubstr("alert('x')</script>")));
   EXPECT_THAT(page, HasSubstr("<title>&lt;/script&gt;&lt;script&gt;alert(&#39;x&#39;)"));
   EXPECT_THAT(page, Not(HasSubstr("<!--{{")));
@@ -303,15 +303,15 @@ TEST(HtmlReport, RepairsNamesThatAreNotUtf8) {
   const PosterRun run;
   ReportContext context = ContextOf(run);
   context.description.data_path = "/data/\xff\xfe";
-  const auto json = DataOf(FormatHtmlReport(run.system(), PosterDataset(6), context));
+  const auto json = DataOf(FormatHtmlReport(run.result(), PosterDataset(6), context));
   EXPECT_EQ(json["run"]["path"], "/data/\uFFFD\uFFFD");
   EXPECT_NO_THROW(nlohmann::json::parse(
-      FormatSummary(context.description, run.system(), PosterDataset(6), {})));
+      FormatSummary(context.description, run.result(), PosterDataset(6), {})));
 }
 
 TEST(HtmlReport, NeedsNothingFromElsewhere) {
   const PosterRun run;
-  const std::string page = FormatHtmlReport(run.system(), PosterDataset(6), ContextOf(run));
+  const std::string page = FormatHtmlReport(run.result(), PosterDataset(6), ContextOf(run));
   for (const char* word : {"http:", "https:", "src=\"/", "@import", "url(", "fetch(", "{{"}) {
     EXPECT_THAT(page, Not(HasSubstr(word)));
   }
@@ -327,7 +327,7 @@ TEST(HtmlReport, HasScriptsThatParse) {
     GTEST_SKIP() << "node is not installed";
   }
   const PosterRun run;
-  const std::string page = FormatHtmlReport(run.system(), PosterDataset(6), ContextOf(run));
+  const std::string page = FormatHtmlReport(run.result(), PosterDataset(6), ContextOf(run));
   const std::size_t begin = page.rfind("<script>") + 8;
   const ScratchFolder folder;
   const auto file =
@@ -338,7 +338,7 @@ TEST(HtmlReport, HasScriptsThatParse) {
 
 TEST(HtmlReport, SaysThatThereIsNoGroundTruth) {
   const PosterRun run;
-  const auto json = DataOf(FormatHtmlReport(run.system(), PosterDataset(6, false), ContextOf(run)));
+  const auto json = DataOf(FormatHtmlReport(run.result(), PosterDataset(6, false), ContextOf(run)));
   EXPECT_EQ(json["scene"]["has_ground_truth"], false);
   EXPECT_TRUE(json["scene"]["maps"][0]["error"].is_null());
   EXPECT_EQ(json["scene"]["reference"], "");
@@ -351,7 +351,7 @@ TEST(HtmlReport, LengthsOfOneCameraAreMetresOnlyBesideGroundTruth) {
   const auto metric = [&](SensorKind sensor, bool with_truth) -> bool {
     DatasetInfo info = PosterDataset(6, with_truth).info();
     info.sensor = sensor;
-    const auto json = DataOf(FormatHtmlReport(run.system(), PosterDataset(info), ContextOf(run)));
+    const auto json = DataOf(FormatHtmlReport(run.result(), PosterDataset(info), ContextOf(run)));
     return json["scene"]["maps"][0]["metric"];
   };
   EXPECT_TRUE(metric(SensorKind::kStereo, false));
@@ -366,7 +366,7 @@ TEST(HtmlReport, WritesUnitsWhereLengthsAreNoMetres) {
     GTEST_SKIP() << "node is not installed";
   }
   const PosterRun run;
-  const std::string page = FormatHtmlReport(run.system(), PosterDataset(6), ContextOf(run));
+  const std::string page = FormatHtmlReport(run.result(), PosterDataset(6), ContextOf(run));
   const std::size_t begin = page.find("// A number with `count` significant digits");
   const std::size_t end = page.find("// A value that tells its listeners", begin);
   ASSERT_NE(end, std::string::npos);
@@ -384,8 +384,8 @@ TEST(HtmlReport, WritesUnitsWhereLengthsAreNoMetres) {
 }
 
 TEST(HtmlReport, IsMadeWithoutAnyFrame) {
-  const System system(MovingPoster::MakeCalibration(), {});
-  const auto json = DataOf(FormatHtmlReport(system, PosterDataset(6), {}));
+  const RunResult result = System(MovingPoster::MakeCalibration(), {}).Finish();
+  const auto json = DataOf(FormatHtmlReport(result, PosterDataset(6), {}));
   EXPECT_TRUE(json["scene"]["main"].is_null());
   EXPECT_TRUE(json["scene"]["maps"].empty());
   EXPECT_TRUE(json["stages"].empty());
@@ -398,8 +398,8 @@ TEST(HtmlReport, IsMadeForOneFrameAndWithoutLines) {
   options.features.lines = false;
   System system(MovingPoster::MakeCalibration(), options);
   system.Process(MovingPoster().Frame(0));
-  system.Finish();
-  const auto json = DataOf(FormatHtmlReport(system, PosterDataset(6), {}));
+  const RunResult result = system.Finish();
+  const auto json = DataOf(FormatHtmlReport(result, PosterDataset(6), {}));
   EXPECT_EQ(json["counts"]["lines"], 0);
   EXPECT_EQ(json["scene"]["maps"][0]["lines"], "");
   EXPECT_EQ(json["scene"]["maps"][0]["frames"], nlohmann::json({0}));
@@ -409,13 +409,13 @@ TEST(HtmlReport, IsMadeForOneFrameAndWithoutLines) {
 TEST(HtmlReport, IsWrittenWithTheDate) {
   const PosterRun run;
   const ScratchFolder folder;
-  WriteHtmlReport(run.system(), PosterDataset(6), ContextOf(run), folder.path());
+  WriteHtmlReport(run.result(), PosterDataset(6), ContextOf(run), folder.path());
   const auto json = DataOf(Contents(folder / "report.html"));
   const std::string date = json["run"]["date"];
   EXPECT_TRUE(std::regex_match(date, std::regex(R"(20\d\d-\d\d-\d\d \d\d:\d\d UTC)"))) << date;
   EXPECT_NE(date, "2026-01-02 03:04 UTC");
   const std::string message = MessageOf(
-      [&] { WriteHtmlReport(run.system(), PosterDataset(6), ContextOf(run), folder / "nowhere"); });
+      [&] { WriteHtmlReport(run.result(), PosterDataset(6), ContextOf(run), folder / "nowhere"); });
   EXPECT_THAT(message, HasSubstr("report.html"));
 }
 

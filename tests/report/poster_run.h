@@ -44,25 +44,29 @@ class PosterDataset : public Dataset {
 // Six frames of the poster: the third skipped, the fifth lost.
 class PosterRun {
  public:
-  explicit PosterRun(const SlamOptions& options = {})
-      : system_(MovingPoster::MakeCalibration(), options) {
+  explicit PosterRun(const SlamOptions& options = {}) {
+    System system(MovingPoster::MakeCalibration(), options);
     const MovingPoster poster;
     for (int i = 0; i < 6; ++i) {
       if (i == 2) {
-        system_.Skip(MovingPoster::StampNs(i), "image_unreadable");
+        system.Skip(MovingPoster::StampNs(i), "image_unreadable");
       } else {
-        system_.Process(i == 4 ? MovingPoster::BlindFrame(i) : poster.Frame(i));
-        if (i == 3) sample_ = MakeSampleImage(system_.view(), "overlay_000003.png");
+        system.Process(i == 4 ? MovingPoster::BlindFrame(i) : poster.Frame(i));
+        if (i == 3) sample_ = MakeSampleImage(system.view(), "overlay_000003.png");
       }
     }
-    system_.Finish();
+    view_ = system.view();
+    result_ = system.Finish();
   }
-  const System& system() const { return system_; }
+  const RunResult& result() const { return result_; }
+  // Of the last frame.
+  const FrameView& view() const { return view_; }
   // Of the fourth frame.
   const SampleImage& sample() const { return sample_; }
 
  private:
-  System system_;
+  RunResult result_;
+  FrameView view_;
   SampleImage sample_;
 };
 

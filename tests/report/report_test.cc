@@ -114,7 +114,7 @@ std::size_t Rows(const std::string& text) {
 
 TEST(CountRun, CountsEveryFrameOnce) {
   const PosterRun run;
-  const RunCounts counts = CountRun(run.system());
+  const RunCounts counts = CountRun(run.result());
   EXPECT_EQ(counts.frames, 6);
   EXPECT_EQ(counts.tracked, 4);
   EXPECT_EQ(counts.skipped, 1);
@@ -138,8 +138,7 @@ TEST(CountRun, TellsDroppedFramesFromOthersThatWereSkipped) {
   System system(MovingPoster::MakeCalibration(), SlamOptions{});
   system.Skip(MovingPoster::StampNs(0), "image_unreadable");
   system.Skip(MovingPoster::StampNs(1), Pipeline::kDropped, LoadLevel::kFrame);
-  system.Finish();
-  const RunCounts counts = CountRun(system);
+  const RunCounts counts = CountRun(system.Finish());
   EXPECT_EQ(counts.skipped, 2);
   EXPECT_EQ(counts.dropped, 1);
 }
@@ -149,7 +148,7 @@ TEST(Summary, HoldsTheFieldsOfTheInterface) {
   const PosterDataset dataset(6);
   const std::string text = FormatSummary(
       {"0.1.0", "some/folder", "slam:\n  seed: 3\n", 3},
-      run.system(),
+      run.result(),
       dataset,
       {.wall_seconds = 1.5, .first_pose_seconds = 0.2, .cpu_seconds = 2.5, .peak_memory_mb = 30});
   const auto json = nlohmann::json::parse(text);
@@ -196,12 +195,12 @@ TEST(Summary, TellsWhetherAllFramesWereTaken) {
   const PosterRun run;
   RunDescription description;
   description.frames_chosen = 6;
-  auto json = nlohmann::json::parse(FormatSummary(description, run.system(), PosterDataset(6), {}));
+  auto json = nlohmann::json::parse(FormatSummary(description, run.result(), PosterDataset(6), {}));
   EXPECT_TRUE(json["interrupted"].is_null());
   EXPECT_EQ(json["frames"]["of"], 6);
   description.frames_chosen = 200;
   description.interrupted = "SIGTERM";
-  json = nlohmann::json::parse(FormatSummary(description, run.system(), PosterDataset(6), {}));
+  json = nlohmann::json::parse(FormatSummary(description, run.result(), PosterDataset(6), {}));
   EXPECT_EQ(json["interrupted"], "SIGTERM");
   EXPECT_EQ(json["frames"]["of"], 200);
   EXPECT_EQ(json["frames"]["in"], 6);
@@ -210,10 +209,10 @@ TEST(Summary, TellsWhetherAllFramesWereTaken) {
 TEST(Summary, NamesThePreset) {
   const PosterRun run;
   RunDescription description;
-  auto json = nlohmann::json::parse(FormatSummary(description, run.system(), PosterDataset(6), {}));
+  auto json = nlohmann::json::parse(FormatSummary(description, run.result(), PosterDataset(6), {}));
   EXPECT_TRUE(json.at("preset").is_null());
   description.preset = "rippl";
-  json = nlohmann::json::parse(FormatSummary(description, run.system(), PosterDataset(6), {}));
+  json = nlohmann::json::parse(FormatSummary(description, run.result(), PosterDataset(6), {}));
   EXPECT_EQ(json["preset"], "rippl");
 }
 
@@ -221,7 +220,7 @@ TEST(Summary, TellsTheMemoryOfALine) {
   const PosterRun run;
   const auto line_bytes = [](const PosterRun& of) {
     return nlohmann::json::parse(
-        FormatSummary({}, of.system(), PosterDataset(6), {}))["line_bytes"];
+        FormatSummary({}, of.result(), PosterDataset(6), {}))["line_bytes"];
   };
   const auto bytes = line_bytes(run);
   EXPECT_GT(bytes["map"], sizeof(MapLine));
@@ -230,7 +229,7 @@ TEST(Summary, TellsTheMemoryOfALine) {
   SlamOptions no_lines;
   no_lines.features.lines = false;
   const PosterRun points(no_lines);
-  const LineMemory memory = MeasureLineMemory(points.system());
+  const LineMemory memory = MeasureLineMemory(points.result());
   EXPECT_FALSE(memory.map.has_value());
   EXPECT_FALSE(memory.adjustment.has_value());
   EXPECT_TRUE(line_bytes(points)["map"].is_null());
@@ -240,7 +239,7 @@ TEST(Summary, TellsTheMemoryOfALine) {
 TEST(Summary, SaysNullWithoutGroundTruth) {
   const PosterRun run;
   const auto json =
-      nlohmann::json::parse(FormatSummary({}, run.system(), PosterDataset(6, false), {}));
+      nlohmann::json::parse(FormatSummary({}, run.result(), PosterDataset(6, false), {}));
   EXPECT_TRUE(json["accuracy"].is_null());
   EXPECT_TRUE(json["accuracy_causal"].is_null());
 }
@@ -251,15 +250,15 @@ class AwayAndBack {
  public:
   static constexpr int kStretch = 12, kFrames = 3 * kStretch + 14 + 4;
 
-  AwayAndBack() : system_(MovingPoster::MakeCalibration(), Options()) {
+  AwayAndBack() {
     Show(0, kStretch);
     Show(std::nullopt, 14);
     Show(118, kStretch);
     Show(std::nullopt, 4);
     Show(0, kStretch);
-    system_.Finish();
+    result_ = system_.Finish();
   }
-  const System& system() const { return system_; }
+  const RunResult& result() const { return result_; }
 
  private:
   static SlamOptions Options() {
@@ -278,33 +277,34 @@ class AwayAndBack {
   }
 
   MovingPoster poster_;
-  System system_;
+  System system_{MovingPoster::MakeCalibration(), Options()};
+  RunResult result_;
   int shown_ = 0;
 };
 
 TEST(Summary, CoverageIsThatOfTheTrajectoryWhoseErrorsItTells) {
   const AwayAndBack run;
-  const System& system = run.system();
-  const RunCounts counts = CountRun(system);
+  const RunResult& result = run.result();
+  const RunCounts counts = CountRun(result);
   ASSERT_EQ(counts.frames, AwayAndBack::kFrames);
   ASSERT_EQ(counts.maps, 2);
-  const MapId main = system.MainMap().value();
-  const auto poses = static_cast<double>(system.FinalTrajectory(main).size());
+  const MapId main = result.MainMap().value();
+  const auto poses = static_cast<double>(result.FinalTrajectory(main).size());
   EXPECT_EQ(counts.in_trajectory, poses);
   EXPECT_LT(counts.in_trajectory, counts.tracked);  // the others are in the other map
   const auto json =
-      nlohmann::json::parse(FormatSummary({}, system, PosterDataset(AwayAndBack::kFrames), {}));
+      nlohmann::json::parse(FormatSummary({}, result, PosterDataset(AwayAndBack::kFrames), {}));
   EXPECT_EQ(json["frames"]["in_trajectory"], poses);
   EXPECT_NEAR(json["accuracy"]["coverage"], poses / AwayAndBack::kFrames, 1e-9);
   EXPECT_NEAR(json["accuracy_causal"]["coverage"],
-              static_cast<double>(system.CausalTrajectory(main).size()) / AwayAndBack::kFrames,
+              static_cast<double>(result.CausalTrajectory(main).size()) / AwayAndBack::kFrames,
               1e-9);
 }
 
 TEST(Summary, CountsTheFramesAtWhichTheCameraWasFoundAgain) {
   const AwayAndBack run;
   const auto json = nlohmann::json::parse(
-      FormatSummary({}, run.system(), PosterDataset(AwayAndBack::kFrames), {}));
+      FormatSummary({}, run.result(), PosterDataset(AwayAndBack::kFrames), {}));
   EXPECT_GE(json["frames"]["relocalized"], 1);
   EXPECT_EQ(json["frames"]["relocalized"], json["relocalizations"].size());
 }
@@ -315,7 +315,7 @@ TEST(Summary, SaysWhetherThePositionsDetermineTheAlignment) {
   const auto degenerate = [&] {
     const PosterDataset dataset(info);
     return nlohmann::json::parse(
-        FormatSummary({}, run.system(), dataset, {}))["accuracy"]["degenerate"];
+        FormatSummary({}, run.result(), dataset, {}))["accuracy"]["degenerate"];
   };
   EXPECT_EQ(degenerate(), "all positions on a line");  // the truth is straight
   for (std::size_t i = 0; i < 6; ++i) {
@@ -324,10 +324,10 @@ TEST(Summary, SaysWhetherThePositionsDetermineTheAlignment) {
   EXPECT_TRUE(degenerate().is_null());
 }
 
-std::vector<RunFile> AllFiles(const System& system) {
-  std::vector<RunFile> files = PoseFiles(system);
-  files.push_back(MapFile(system));
-  const std::vector<RunFile> derived = DerivedFiles(system);
+std::vector<RunFile> AllFiles(const RunResult& result) {
+  std::vector<RunFile> files = PoseFiles(result);
+  files.push_back(MapFile(result));
+  const std::vector<RunFile> derived = DerivedFiles(result);
   files.insert(files.end(), derived.begin(), derived.end());
   return files;
 }
@@ -335,7 +335,7 @@ std::vector<RunFile> AllFiles(const System& system) {
 TEST(RunFiles, AreAllThereAndComplete) {
   const PosterRun run;
   const ScratchFolder folder;
-  for (const RunFile& file : AllFiles(run.system())) {
+  for (const RunFile& file : AllFiles(run.result())) {
     EXPECT_TRUE(IsRunFile(file.name)) << file.name;
     file.write(folder / file.name);
   }
@@ -369,7 +369,7 @@ TEST(RunFiles, CovariancesHaveTheStampsOfTheCausalPoses) {
   const PosterRun run;
   {
     const ScratchFolder folder;
-    for (const RunFile& file : PoseFiles(run.system())) file.write(folder / file.name);
+    for (const RunFile& file : PoseFiles(run.result())) file.write(folder / file.name);
     std::vector<std::string> stamps;
     for (const StampedPose& pose : ReadTrajectory(folder / "trajectory_causal.txt").poses) {
       stamps.push_back(FormatStamp(pose.stamp_ns));
@@ -391,9 +391,9 @@ TEST(RunFiles, CovariancesHaveTheStampsOfTheCausalPoses) {
 }
 
 TEST(RunFiles, AreThereWithoutAnyPose) {
-  const System system(MovingPoster::MakeCalibration(), {});
+  const RunResult result = System(MovingPoster::MakeCalibration(), {}).Finish();
   const ScratchFolder folder;
-  for (const RunFile& file : AllFiles(system)) file.write(folder / file.name);
+  for (const RunFile& file : AllFiles(result)) file.write(folder / file.name);
   EXPECT_EQ(Contents(folder / "trajectory.txt"), "");
   EXPECT_EQ(Contents(folder / "keyframes.txt"), "");
   EXPECT_EQ(Rows(Contents(folder / "frames.csv")), 1U);
@@ -405,17 +405,17 @@ TEST(RunFiles, MapsThatAreOnlyReadHaveTheBytesThatWereLoaded) {
   const MovingPoster poster;
   System mapped(MovingPoster::MakeCalibration(), options);
   for (int i = 0; i < 40; ++i) mapped.Process(poster.Frame(i));
-  mapped.Finish();
-  SavedAtlas saved{mapped.atlas(), mapped.Context()};
+  RunResult made = mapped.Finish();
+  SavedAtlas saved{std::move(made.atlas), std::move(made.context)};
   saved.atlas.Start();  // the one to go on with; the camera is in the other one
   const ScratchFolder folder;
   SaveAtlas(folder / "loaded.plb", saved.atlas, saved.context);
   System system(MovingPoster::MakeCalibration(), options);
   system.Continue(std::move(saved), true);
   for (int i = 8; i < 40; ++i) system.Process(poster.Frame(i));
-  system.Finish();
-  ASSERT_EQ(system.MainMap(), MapId{0});
-  MapFile(system).write(folder / "map.plb");
+  const RunResult result = system.Finish();
+  ASSERT_EQ(result.MainMap(), MapId{0});
+  MapFile(result).write(folder / "map.plb");
   EXPECT_TRUE(Contents(folder / "map.plb") == Contents(folder / "loaded.plb"));
 }
 
@@ -423,7 +423,7 @@ TEST(RunFiles, SayWhichFileCannotBeWritten) {
   const PosterRun run;
   const ScratchFolder folder;
   const auto file = folder.Write("file", "not a folder");
-  for (const RunFile& written : AllFiles(run.system())) {
+  for (const RunFile& written : AllFiles(run.result())) {
     const std::string message = MessageOf([&] { written.write(file / written.name); });
     EXPECT_NE(message.find(written.name), std::string::npos) << message;
   }
@@ -431,7 +431,7 @@ TEST(RunFiles, SayWhichFileCannotBeWritten) {
 
 TEST(RunFiles, ThoseWorthMostForTheirSizeComeFirst) {
   const PosterRun run;
-  const std::vector<RunFile> files = PoseFiles(run.system());
+  const std::vector<RunFile> files = PoseFiles(run.result());
   ASSERT_EQ(files.size(), 5U);
   EXPECT_EQ(files[0].name, "trajectory.txt");
   EXPECT_EQ(files[1].name, "trajectory_causal.txt");
@@ -443,7 +443,7 @@ TEST(RunFiles, ThoseWorthMostForTheirSizeComeFirst) {
 TEST(Overlay, IsWrittenForTheLastFrame) {
   const PosterRun run;
   const ScratchFolder folder;
-  WriteFeatureOverlay(run.system().view(), folder / "overlay.png");
+  WriteFeatureOverlay(run.view(), folder / "overlay.png");
   EXPECT_EQ(Contents(folder / "overlay.png").substr(1, 3), "PNG");
 }
 

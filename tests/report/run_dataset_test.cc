@@ -34,22 +34,22 @@ SlamOptions InMode(RunMode mode) {
   return options;
 }
 
-std::string TrajectoryOf(const System& system) {
-  return FormatTum(system.FinalTrajectory(system.MainMap().value()));
+std::string TrajectoryOf(const RunResult& result) {
+  return FormatTum(result.FinalTrajectory(result.MainMap().value()));
 }
 
 TEST(RunDataset, TracksAllFramesAndFinishesTheMap) {
-  const auto system = RunDataset(PosterDataset(6));
-  EXPECT_EQ(system->frames().size(), 6U);
-  const Trajectory poses = system->FinalTrajectory(system->MainMap().value());
+  const RunResult result = RunDataset(PosterDataset(6));
+  EXPECT_EQ(result.frames.size(), 6U);
+  const Trajectory poses = result.FinalTrajectory(result.MainMap().value());
   ASSERT_EQ(poses.size(), 6U);
   EXPECT_NEAR(poses.back().world_from_camera.translation.x(), 5 * MovingPoster::kStep, 0.003);
 }
 
 TEST(RunDataset, IsTheSameInAThreadOfItsOwn) {
   const PosterDataset poster(6);
-  EXPECT_EQ(TrajectoryOf(*RunDataset(poster, InMode(RunMode::kInline))),
-            TrajectoryOf(*RunDataset(poster, InMode(RunMode::kLockstep))));
+  EXPECT_EQ(TrajectoryOf(RunDataset(poster, InMode(RunMode::kInline))),
+            TrajectoryOf(RunDataset(poster, InMode(RunMode::kLockstep))));
 }
 
 TEST(RunDataset, TellsOfEachFrameInOrder) {
@@ -62,22 +62,22 @@ TEST(RunDataset, TellsOfEachFrameInOrder) {
 
 TEST(RunDataset, EndsWhenAskedTo) {
   int frames = 0;
-  const auto system = RunDataset(
+  const RunResult result = RunDataset(
       PosterDataset(6),
       InMode(RunMode::kInline),
       [&](const FrameRecord&) { ++frames; },
       [&] { return frames >= 3; });
-  EXPECT_EQ(system->frames().size(), 3U);
-  EXPECT_TRUE(system->MainMap().has_value());
+  EXPECT_EQ(result.frames.size(), 3U);
+  EXPECT_TRUE(result.MainMap().has_value());
 }
 
 TEST(RunDataset, WaitsForFramesThatAreToCome) {
   const auto begin = std::chrono::steady_clock::now();
-  const auto system = RunDataset(PosterDataset(4), InMode(RunMode::kLive));
+  const RunResult result = RunDataset(PosterDataset(4), InMode(RunMode::kLive));
   const auto recorded =
       std::chrono::nanoseconds(MovingPoster::StampNs(3) - MovingPoster::StampNs(0));
   EXPECT_GE(std::chrono::steady_clock::now() - begin, recorded);
-  EXPECT_EQ(system->frames().size(), 4U);
+  EXPECT_EQ(result.frames.size(), 4U);
 }
 
 }  // namespace run_dataset_test

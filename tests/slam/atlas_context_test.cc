@@ -6,7 +6,6 @@
 #include "plumbline/slam/system.h"
 
 #include "tests/support/moving_poster.h"
-#include <memory>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,28 +14,27 @@ namespace plumbline {
 namespace {
 
 using testing::HasSubstr;
+using testing::MatchesRegex;
 
-std::unique_ptr<System> RunPoster(int from, int to, const SlamOptions& options = {}) {
-  auto system = std::make_unique<System>(MovingPoster::MakeCalibration(), options);
+RunResult RunPoster(int from, int to, const SlamOptions& options = {}) {
+  System system(MovingPoster::MakeCalibration(), options);
   const MovingPoster poster;
-  for (int i = from; i < to; ++i) system->Process(poster.Frame(i));
-  system->Finish();
-  return system;
+  for (int i = from; i < to; ++i) system.Process(poster.Frame(i));
+  return system.Finish();
 }
 
 TEST(SystemContext, SaysWhatTheMapsWereMadeWith) {
   SlamOptions options;
   options.slam.seed = 5;
   options.features.orb.scale_factor = 1.25;
-  auto system = RunPoster(0, 4, options);
-  system->DescribeSession("0.1");
-  const AtlasContext context = system->Context();
-  EXPECT_EQ(context.camera.fx, system->camera().fx);
+  const RunResult result = RunPoster(0, 4, options);
+  const AtlasContext& context = result.context;
+  EXPECT_EQ(context.camera.fx, result.camera.fx);
   EXPECT_EQ(context.octave_scale, 1.25);
   EXPECT_THAT(context.options_yaml, HasSubstr("seed: 5"));
   EXPECT_EQ(context.feature_format, kFeatureFormat);
   ASSERT_EQ(context.sessions.size(), 1U);
-  EXPECT_EQ(context.sessions[0].program, "0.1");
+  EXPECT_THAT(context.sessions[0].program, MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+.*"));
   EXPECT_EQ(context.sessions[0].data, "");
   EXPECT_EQ(context.sessions[0].first_stamp_ns, MovingPoster::StampNs(0));
   EXPECT_EQ(context.sessions[0].last_stamp_ns, MovingPoster::StampNs(3));
@@ -63,7 +61,7 @@ TEST(AddMaps, LeavesOutMapsThatBecamePartOfOthers) {
 
 TEST(SystemContext, NamesASessionByItsInput) {
   const auto uuid = [](int from, const SlamOptions& options = {}) {
-    return RunPoster(from, from + 3, options)->session().uuid;
+    return RunPoster(from, from + 3, options).context.sessions.at(0).uuid;
   };
   const Uuid first = uuid(0);
   EXPECT_EQ(uuid(0), first);
@@ -77,8 +75,10 @@ TEST(SystemContext, NamesASessionByItsInput) {
 }
 
 TEST(SystemContext, IsThereWithoutAnyMap) {
-  const System system(MovingPoster::MakeCalibration(), {});
-  EXPECT_TRUE(system.Context().maps.empty());
+  System system(MovingPoster::MakeCalibration(), {});
+  const AtlasContext context = system.Finish().context;
+  EXPECT_TRUE(context.maps.empty());
+  EXPECT_EQ(context.sessions.size(), 1U);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include "plumbline/slam/system.h"
 
 #include "tests/support/moving_poster.h"
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,24 +28,22 @@ SavedAtlas MappedPoster() {
   System system(MovingPoster::MakeCalibration(), InMode(RunMode::kInline));
   const MovingPoster poster;
   for (int i = 0; i < kFrames; ++i) system.Process(poster.Frame(i));
-  system.Finish();
-  return {system.atlas(), system.Context()};
+  RunResult result = system.Finish();
+  return {std::move(result.atlas), std::move(result.context)};
 }
 
 // Frame `first` on of the same poster, in the map.
-std::unique_ptr<System> GoOn(
-    const SavedAtlas& saved, bool read_only, int first, int last, RunMode mode) {
-  auto system = std::make_unique<System>(MovingPoster::MakeCalibration(), InMode(mode));
-  system->Continue(saved, read_only);
+RunResult GoOn(const SavedAtlas& saved, bool read_only, int first, int last, RunMode mode) {
+  System system(MovingPoster::MakeCalibration(), InMode(mode));
+  system.Continue(saved, read_only);
   const MovingPoster poster;
-  for (int i = first; i < last; ++i) system->Process(poster.Frame(i));
-  system->Finish();
-  return system;
+  for (int i = first; i < last; ++i) system.Process(poster.Frame(i));
+  return system.Finish();
 }
 
-int CountTracked(const System& system) {
+int CountTracked(const RunResult& result) {
   int tracked = 0;
-  for (const FrameRecord& frame : system.frames()) tracked += frame.status == FrameStatus::kTracked;
+  for (const FrameRecord& frame : result.frames) tracked += frame.status == FrameStatus::kTracked;
   return tracked;
 }
 
@@ -60,37 +57,41 @@ void ExpectThePosesOfThePoster(const Trajectory& trajectory) {
 }
 
 TEST(ContinuedMap, FirstFramesAreLostUntilTheirPlaceIsFound) {
-  const auto system = GoOn(MappedPoster(), false, 10, 30, RunMode::kInline);
-  EXPECT_EQ(system->frames().front().status, FrameStatus::kLost);
-  EXPECT_EQ(system->frames().front().reason, "not_relocalized");
-  EXPECT_GE(CountTracked(*system), 17);
-  ExpectThePosesOfThePoster(system->FinalTrajectory(MapId{0}));
-  ExpectThePosesOfThePoster(system->CausalTrajectory(MapId{0}));
+  const RunResult result = GoOn(MappedPoster(), false, 10, 30, RunMode::kInline);
+  EXPECT_EQ(result.frames.front().status, FrameStatus::kLost);
+  EXPECT_EQ(result.frames.front().reason, "not_relocalized");
+  EXPECT_GE(CountTracked(result), 17);
+  ExpectThePosesOfThePoster(result.FinalTrajectory(MapId{0}));
+  ExpectThePosesOfThePoster(result.CausalTrajectory(MapId{0}));
 }
 
 // What is known is not told again.
 TEST(ContinuedMap, TellsOnceThatThePlaceWasFound) {
-  const auto system = GoOn(MappedPoster(), false, 10, 30, RunMode::kInline);
+  System system(MovingPoster::MakeCalibration(), InMode(RunMode::kInline));
+  system.Continue(MappedPoster(), false);
+  const MovingPoster poster;
+  for (int i = 10; i < 30; ++i) system.Process(poster.Frame(i));
   MapEventCounts known;
-  const MapEvents events = system->EventsSince(known);
+  const MapEvents events = system.EventsSince(known);
   ASSERT_EQ(events.relocalizations.size(), 1U);
-  EXPECT_EQ(events.relocalizations[0].frame, system->events().relocalizations[0].frame);
-  EXPECT_TRUE(system->EventsSince(known).empty());
-  EXPECT_EQ(system->EventsSoFar().relocalizations.size(), 1U);
+  EXPECT_TRUE(system.EventsSince(known).empty());
+  const RunResult result = system.Finish();
+  ASSERT_EQ(result.events.relocalizations.size(), 1U);
+  EXPECT_EQ(events.relocalizations[0].frame, result.events.relocalizations[0].frame);
 }
 
 TEST(ContinuedMap, GrowsAndKeepsItsId) {
   const SavedAtlas saved = MappedPoster();
   const KeyFrameId first_new = saved.atlas.NextKeyFrameId();
-  const auto system = GoOn(saved, false, 20, 75, RunMode::kInline);
-  ASSERT_EQ(system->maps().size(), 1U);
-  const Map& map = system->maps().at(MapId{0});
+  const RunResult result = GoOn(saved, false, 20, 75, RunMode::kInline);
+  ASSERT_EQ(result.atlas.maps().size(), 1U);
+  const Map& map = result.atlas.maps().at(MapId{0});
   map.CheckInvariants();
   EXPECT_GT(map.keyframes().rbegin()->first, first_new);
-  EXPECT_EQ(system->MainMap(), MapId{0});
-  ExpectThePosesOfThePoster(system->FinalTrajectory(MapId{0}));
+  EXPECT_EQ(result.MainMap(), MapId{0});
+  ExpectThePosesOfThePoster(result.FinalTrajectory(MapId{0}));
   // Own keyframes only.
-  const Trajectory keyframes = system->KeyFrameTrajectory(MapId{0});
+  const Trajectory keyframes = result.KeyFrameTrajectory(MapId{0});
   ASSERT_FALSE(keyframes.empty());
   EXPECT_LT(keyframes.size(), map.keyframes().size());
   for (const StampedPose& pose : keyframes) EXPECT_GE(pose.stamp_ns, MovingPoster::StampNs(20));
@@ -99,14 +100,14 @@ TEST(ContinuedMap, GrowsAndKeepsItsId) {
 TEST(ContinuedMap, ThatIsOnlyReadStaysAsItIs) {
   const SavedAtlas saved = MappedPoster();
   const Map& before = saved.atlas.active();
-  const auto system = GoOn(saved, true, 5, 35, RunMode::kInline);
-  EXPECT_GE(CountTracked(*system), 27);
-  const Map& after = system->maps().at(MapId{0});
+  const RunResult result = GoOn(saved, true, 5, 35, RunMode::kInline);
+  EXPECT_GE(CountTracked(result), 27);
+  const Map& after = result.atlas.maps().at(MapId{0});
   EXPECT_EQ(after.version(), before.version());
   EXPECT_EQ(after.keyframes().size(), before.keyframes().size());
-  EXPECT_TRUE(system->KeyFrameTrajectory(MapId{0}).empty());
-  for (const FrameRecord& frame : system->frames()) EXPECT_FALSE(frame.keyframe);
-  ExpectThePosesOfThePoster(system->FinalTrajectory(MapId{0}));
+  EXPECT_TRUE(result.KeyFrameTrajectory(MapId{0}).empty());
+  for (const FrameRecord& frame : result.frames) EXPECT_FALSE(frame.keyframe);
+  ExpectThePosesOfThePoster(result.FinalTrajectory(MapId{0}));
 }
 
 TEST(ContinuedMap, GivesTheSameInEveryDeterministicMode) {
@@ -114,8 +115,8 @@ TEST(ContinuedMap, GivesTheSameInEveryDeterministicMode) {
   for (const bool read_only : {false, true}) {
     const auto a = GoOn(saved, read_only, 8, 40, RunMode::kInline);
     const auto b = GoOn(saved, read_only, 8, 40, RunMode::kLockstep);
-    const Trajectory of_a = a->FinalTrajectory(MapId{0});
-    const Trajectory of_b = b->FinalTrajectory(MapId{0});
+    const Trajectory of_a = a.FinalTrajectory(MapId{0});
+    const Trajectory of_b = b.FinalTrajectory(MapId{0});
     ASSERT_EQ(of_a.size(), of_b.size());
     for (std::size_t i = 0; i < of_a.size(); ++i) {
       EXPECT_EQ(of_a[i].stamp_ns, of_b[i].stamp_ns);
@@ -138,8 +139,8 @@ TEST(ContinuedMap, ALossInItIsNotTheEnd) {
     tracked += system.Process(poster.Frame(i)).status == FrameStatus::kTracked;
   }
   EXPECT_GE(tracked, 11);
-  system.Finish();
-  ExpectThePosesOfThePoster(system.FinalTrajectory(MapId{0}));
+  const RunResult result = system.Finish();
+  ExpectThePosesOfThePoster(result.FinalTrajectory(MapId{0}));
 }
 
 TEST(ContinuedMap, ThatDoesNotShowTheCamerasPlaceGivesWayToANewOne) {
@@ -151,13 +152,13 @@ TEST(ContinuedMap, ThatDoesNotShowTheCamerasPlaceGivesWayToANewOne) {
   const MovingPoster poster;
   for (int i = 0; i < 8; ++i) system.Process(MovingPoster::StrangeFrame(i));
   for (int i = 8; i < 14; ++i) system.Process(poster.Frame(i));
-  system.Finish();
-  ASSERT_EQ(system.maps().size(), 2U);
-  EXPECT_EQ(system.MainMap(), MapId{1});
-  EXPECT_EQ(system.frames().back().map, MapId{1});
+  const RunResult result = system.Finish();
+  ASSERT_EQ(result.atlas.maps().size(), 2U);
+  EXPECT_EQ(result.MainMap(), MapId{1});
+  EXPECT_EQ(result.frames.back().map, MapId{1});
   // No id of the one map is used in the other.
-  const Map& old = system.maps().at(MapId{0});
-  const Map& young = system.maps().at(MapId{1});
+  const Map& old = result.atlas.maps().at(MapId{0});
+  const Map& young = result.atlas.maps().at(MapId{1});
   EXPECT_LT(old.keyframes().rbegin()->first, young.keyframes().begin()->first);
   EXPECT_LT(old.points().rbegin()->first, young.points().begin()->first);
 }
@@ -176,10 +177,10 @@ TEST(ContinuedMap, ANewMapGetsAnIdThatNoJoinedOneHad) {
   const MovingPoster poster;
   for (int i = 0; i < 8; ++i) system.Process(MovingPoster::StrangeFrame(i));
   for (int i = 8; i < 14; ++i) system.Process(poster.Frame(i));
-  system.Finish();
-  EXPECT_EQ(system.frames().back().map, MapId{2});
-  EXPECT_TRUE(system.maps().contains(MapId{2}));
-  EXPECT_EQ(system.FinalTrajectory(MapId{2}).size(), 6U);
+  const RunResult result = system.Finish();
+  EXPECT_EQ(result.frames.back().map, MapId{2});
+  EXPECT_TRUE(result.atlas.maps().contains(MapId{2}));
+  EXPECT_EQ(result.FinalTrajectory(MapId{2}).size(), 6U);
 }
 
 TEST(ContinuedMap, ThatIsOnlyReadNeverGivesWay) {
@@ -190,7 +191,7 @@ TEST(ContinuedMap, ThatIsOnlyReadNeverGivesWay) {
   for (int i = 0; i < 12; ++i) {
     EXPECT_EQ(system.Process(MovingPoster::BlindFrame(i)).status, FrameStatus::kLost);
   }
-  EXPECT_FALSE(system.MainMap());
+  EXPECT_FALSE(system.Finish().MainMap());
 }
 
 TEST(ContinuedMap, NeedsRelocalization) {
@@ -233,7 +234,9 @@ TEST(ContinuedMap, ThatIsOnlyReadIsCopiedWithWhatItWasMadeWith) {
   system.Continue(saved, true);
   const MovingPoster poster;
   for (int i = 5; i < 8; ++i) system.Process(poster.Frame(i));
-  const SavedAtlas copied = system.CopyMaps();
+  SavedAtlas copied;
+  system.ReadMaps([&copied](const CurrentMaps& maps) { copied = maps.copy(); });
+  system.WaitForMapping();
   EXPECT_EQ(copied.context.options_yaml, saved.context.options_yaml);
   EXPECT_EQ(copied.context.sessions.size(), 1U);
   EXPECT_EQ(copied.atlas.active().version(), saved.atlas.active().version());
@@ -242,13 +245,13 @@ TEST(ContinuedMap, ThatIsOnlyReadIsCopiedWithWhatItWasMadeWith) {
 TEST(ContinuedMap, NamesTheSessionsThatMadeIt) {
   const SavedAtlas saved = MappedPoster();
   const auto read = GoOn(saved, true, 5, 10, RunMode::kInline);
-  EXPECT_EQ(read->Context().sessions.size(), 1U);
+  EXPECT_EQ(read.context.sessions.size(), 1U);
   const auto grown = GoOn(saved, false, 20, 70, RunMode::kInline);
-  const AtlasContext context = grown->Context();
+  const AtlasContext& context = grown.context;
   ASSERT_EQ(context.sessions.size(), 2U);
   EXPECT_NE(context.sessions[0].uuid, context.sessions[1].uuid);
   EXPECT_EQ(context.maps.at(MapId{0}).uuid, saved.context.maps.at(MapId{0}).uuid);
-  const auto& keyframes = grown->maps().at(MapId{0}).keyframes();
+  const auto& keyframes = grown.atlas.maps().at(MapId{0}).keyframes();
   EXPECT_EQ(keyframes.begin()->second.session, SessionId{0});
   EXPECT_EQ(keyframes.rbegin()->second.session, SessionId{1});
 }

@@ -47,6 +47,7 @@ class SimulatedRun {
         system_(MovingPoster::MakeCalibration(), Options(), Steps()),
         pipeline_(system_, [this](const FrameRecord& record, const FrameView&) {
           skipped_ = record.status == FrameStatus::kSkipped;
+          tracked_ += record.status == FrameStatus::kTracked;
           most_waiting_ = std::max(most_waiting_, system_.TasksWaiting());
         }) {}
 
@@ -57,10 +58,13 @@ class SimulatedRun {
       Map();
     }
   }
-  void Finish() { pipeline_.Finish(); }
+  void Finish() { result_ = pipeline_.Finish(); }
 
-  const System& system() const { return system_; }
-  const FrameLog& frames() const { return system_.frames(); }
+  // After Finish.
+  const RunResult& result() const { return result_; }
+  const FrameLog& frames() const { return result_.frames; }
+  // So far.
+  int tracked() const { return tracked_; }
   std::size_t most_waiting() const { return most_waiting_; }
 
   int Count(const std::function<bool(const FrameRecord&)>& holds) const {
@@ -107,16 +111,18 @@ class SimulatedRun {
   std::optional<int> mapped_ms_;
   int fed_ = 0;
   bool skipped_ = false;
+  int tracked_ = 0;
   std::size_t most_waiting_ = 0;
   System system_;
   Pipeline pipeline_;
+  RunResult result_;
 };
 
 // Every frame where the truth has it, and hanging on keyframes that the map knows.
 void ExpectWholeTrajectory(const SimulatedRun& run) {
-  ASSERT_EQ(run.system().maps().size(), 1U);
-  run.system().maps().at(MapId{0}).CheckInvariants();
-  const Trajectory final = run.system().FinalTrajectory(MapId{0});
+  ASSERT_EQ(run.result().atlas.maps().size(), 1U);
+  run.result().atlas.maps().at(MapId{0}).CheckInvariants();
+  const Trajectory final = run.result().FinalTrajectory(MapId{0});
   ASSERT_EQ(static_cast<int>(final.size()), run.CountStatus(FrameStatus::kTracked));
   for (const StampedPose& pose : final) {
     const auto frame =
@@ -150,7 +156,7 @@ TEST(LiveRun, RepeatsWithTheSameClock) {
     SimulatedRun run(Constant(70, 400));
     run.Play(30);
     run.Finish();
-    return run.system().FinalTrajectory(MapId{0});
+    return run.result().FinalTrajectory(MapId{0});
   };
   const Trajectory a = poses();
   const Trajectory b = poses();
@@ -165,7 +171,7 @@ TEST(LiveRun, RepeatsWithTheSameClock) {
 TEST(LiveRun, FollowsTheCameraWithoutMapping) {
   SimulatedRun run(Constant(20, 1'000'000));
   run.Play(125);
-  EXPECT_EQ(run.CountStatus(FrameStatus::kTracked), 125);
+  EXPECT_EQ(run.tracked(), 125);
   EXPECT_EQ(run.most_waiting(), MapperThread::kMaxWaiting);
   run.Finish();
   ExpectWholeTrajectory(run);
@@ -181,7 +187,7 @@ TEST(LiveRun, GivesUpTheKeyFramesThatMappingHasNoTimeFor) {
   EXPECT_GT(keyframes, 2);
   EXPECT_EQ(static_cast<int>(Decided(run).size()), demoted + keyframes);
   // Nothing hangs on one that never came to be.
-  const Map& map = run.system().maps().at(MapId{0});
+  const Map& map = run.result().atlas.maps().at(MapId{0});
   for (const FrameRecord& record : run.frames()) {
     EXPECT_FALSE(record.keyframe && record.demoted);
     EXPECT_NO_THROW(map.PoseOf(record.reference)) << record.id.value;
@@ -265,9 +271,9 @@ TEST(LiveRun, ANewMapStartsAfterThat) {
   run.Finish();
   const auto in_new_map = [](const FrameRecord& frame) { return frame.map == MapId{1}; };
   EXPECT_TRUE(std::any_of(run.frames().begin(), run.frames().end(), in_new_map));
-  EXPECT_EQ(run.system().maps().size(), 1U);
-  ASSERT_EQ(run.system().events().joins.size(), 1U);
-  EXPECT_EQ(run.system().events().joins.front().gone, MapId{1});
+  EXPECT_EQ(run.result().atlas.maps().size(), 1U);
+  ASSERT_EQ(run.result().events.joins.size(), 1U);
+  EXPECT_EQ(run.result().events.joins.front().gone, MapId{1});
   EXPECT_EQ(run.frames().back().map, MapId{0});
 }
 

@@ -47,16 +47,18 @@ class Show {
   }
 
   System& system() { return *system_; }
-  FrameRecord Newest() const { return system_->frames().back(); }
+  const FrameRecord& Newest() const { return newest_; }
+  RunResult Finish() { return system_->Finish(); }
 
  private:
   void Process(SensorFrame frame) {
     frame.stamp_ns = MovingPoster::StampNs(shown_++);
-    system_->Process(std::move(frame));
+    newest_ = system_->Process(std::move(frame));
   }
 
   MovingPoster poster_;
   std::unique_ptr<System> system_;
+  FrameRecord newest_;
   int shown_ = 0;
 };
 
@@ -65,11 +67,14 @@ TEST(SwitchMap, TheMapWhereTheCameraIsFoundGrowsAgain) {
   show.AwayAndBack();
   EXPECT_EQ(show.Newest().status, FrameStatus::kTracked);
   EXPECT_EQ(show.Newest().map, MapId{0});
-  const std::size_t before = show.system().atlas().Find(MapId{0})->keyframes().size();
+  std::size_t before = 0;
+  show.system().ReadMaps([&before](const CurrentMaps& maps) {
+    before = maps.atlas.Find(MapId{0})->keyframes().size();
+  });
   // Further than before: new keyframes.
   for (int first = kLeftEnd; first < 5 * kStretch; first += kStretch) show.Stretch(first);
-  show.system().Finish();
-  const Atlas& atlas = show.system().atlas();
+  const RunResult result = show.Finish();
+  const Atlas& atlas = result.atlas;
   ASSERT_EQ(atlas.maps().size(), 2U);
   EXPECT_EQ(atlas.active_id(), MapId{0});
   const Map& old = *atlas.Find(MapId{0});
@@ -85,8 +90,7 @@ TEST(SwitchMap, TheMapWhereTheCameraIsFoundGrowsAgain) {
 TEST(SwitchMap, PosesAreInTheWorldOfThatMap) {
   Show show(RunMode::kInline);
   show.AwayAndBack();
-  show.system().Finish();
-  const Trajectory poses = show.system().FinalTrajectory(MapId{0});
+  const Trajectory poses = show.Finish().FinalTrajectory(MapId{0});
   ASSERT_GT(poses.size(), static_cast<std::size_t>(3 * kStretch / 2));
   const StampedPose& last = poses.back();
   const Eigen::Vector3d expected((kStretch - 1) * MovingPoster::kStep, 0, 0);
@@ -112,7 +116,8 @@ TEST(SwitchMap, AnAnswerIsOldWhereTheCameraWasTrackedSince) {
     show.One(kRightEnd + kStretch - 1);
     EXPECT_EQ(show.Newest().status, FrameStatus::kTracked);
     EXPECT_EQ(show.Newest().map, MapId{1});
-    EXPECT_TRUE(show.system().relocalizations().empty()) << NameOf(mode);
+    MapEventCounts none;
+    EXPECT_TRUE(show.system().EventsSince(none).relocalizations.empty()) << NameOf(mode);
   }
 }
 
@@ -122,26 +127,24 @@ TEST(SwitchMap, ARunThatChangesNothingIsFoundInAnyMapOfAnAtlas) {
   show.Stretch(kLeftEnd);
   show.Elsewhere(kAway);
   show.Stretch(kRightEnd);
-  show.system().Finish();
-  SavedAtlas saved{show.system().atlas(), show.system().Context()};
+  const RunResult result = show.Finish();
+  const SavedAtlas saved{result.atlas, result.context};
   ASSERT_EQ(saved.atlas.active_id(), MapId{1});
   System localized(MovingPoster::MakeCalibration(), InMode(RunMode::kInline));
   localized.Continue(saved, true);
   const MovingPoster poster;
   for (int i = 0; i < kStretch; ++i) localized.Process(poster.Frame(kLeftEnd + i));
-  EXPECT_EQ(localized.frames().back().status, FrameStatus::kTracked);
-  EXPECT_EQ(localized.frames().back().map, MapId{0});
-  EXPECT_EQ(localized.atlas().active_id(), MapId{1});
+  const RunResult found = localized.Finish();
+  EXPECT_EQ(found.frames.back().status, FrameStatus::kTracked);
+  EXPECT_EQ(found.frames.back().map, MapId{0});
+  EXPECT_EQ(found.atlas.active_id(), MapId{1});
 }
 
 TEST(SwitchMap, LockstepDoesWhatInlineDoes) {
   Show alone(RunMode::kInline), beside(RunMode::kLockstep);
-  for (Show* show : {&alone, &beside}) {
-    show->AwayAndBack();
-    show->system().Finish();
-  }
-  const Trajectory a = alone.system().FinalTrajectory(MapId{0});
-  const Trajectory b = beside.system().FinalTrajectory(MapId{0});
+  for (Show* show : {&alone, &beside}) show->AwayAndBack();
+  const Trajectory a = alone.Finish().FinalTrajectory(MapId{0});
+  const Trajectory b = beside.Finish().FinalTrajectory(MapId{0});
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].stamp_ns, b[i].stamp_ns);

@@ -44,10 +44,10 @@ Outcome RunPoster(RunMode mode, int frames, const Execution& execution = {}) {
     while (!execution.threads && (pipeline.WorkOnce() || system.MapOnce())) {
     }
   }
-  pipeline.Finish();
-  outcome.causal = system.CausalTrajectory(MapId{0});
-  outcome.final = system.FinalTrajectory(MapId{0});
-  outcome.keyframes = system.KeyFrameTrajectory(MapId{0});
+  const RunResult result = pipeline.Finish();
+  outcome.causal = result.CausalTrajectory(MapId{0});
+  outcome.final = result.FinalTrajectory(MapId{0});
+  outcome.keyframes = result.KeyFrameTrajectory(MapId{0});
   return outcome;
 }
 
@@ -126,9 +126,9 @@ TEST_F(LiveTest, DropsTheOldestWaitingFrameAndSaysSoInOrder) {
 TEST_F(LiveTest, AFrameThatTheCallerLeftOutIsNotDropped) {
   Release();
   pipeline_->Skip(MovingPoster::StampNs(0), Pipeline::kDropped);
-  pipeline_->Finish();
-  ASSERT_EQ(system_.frames().size(), 1U);
-  EXPECT_EQ(system_.frames()[0].shed, LoadLevel::kNothing);
+  const RunResult result = pipeline_->Finish();
+  ASSERT_EQ(result.frames.size(), 1U);
+  EXPECT_EQ(result.frames[0].shed, LoadLevel::kNothing);
 }
 
 TEST_F(LiveTest, FramesThatCannotBeReadTakeNoPlaceInTheQueue) {
@@ -177,6 +177,25 @@ TEST_P(PipelineFailure, ComesOutOfFeedOrFinish) {
     pipeline.Finish();
   };
   EXPECT_THROW(feed(), InputError);
+}
+
+TEST_P(PipelineFailure, LeavesTheResultOfTheFramesBefore) {
+  System system(MovingPoster::MakeCalibration(), InMode(GetParam()));
+  Pipeline pipeline(system, [](const FrameRecord& record, const FrameView&) {
+    if (record.id == FrameId{2}) throw InputError("no place to write to");
+  });
+  const MovingPoster poster;
+  try {
+    for (int i = 0; i < 3; ++i) {
+      pipeline.Feed(poster.Frame(i));
+      pipeline.Drain();
+    }
+  } catch (const InputError&) {  // by Feed in inline mode
+  }
+  std::exception_ptr failure;
+  const RunResult result = pipeline.Finish({}, &failure);
+  EXPECT_EQ(failure == nullptr, GetParam() == RunMode::kInline);
+  EXPECT_EQ(result.FinalTrajectory(MapId{0}).size(), 3U);
 }
 
 TEST_P(PipelineFailure, OfTheObserverDoesToo) {

@@ -22,21 +22,20 @@ bool SameBits(const Trajectory& a, const Trajectory& b) {
   });
 }
 
-std::unique_ptr<System> RunPoster(int frames) {
-  auto system = std::make_unique<System>(MovingPoster::MakeCalibration(), SlamOptions{});
+RunResult RunPoster(int frames) {
+  System system(MovingPoster::MakeCalibration(), SlamOptions{});
   const MovingPoster poster;
-  for (int i = 0; i < frames; ++i) system->Process(poster.Frame(i));
-  system->Finish();
-  return system;
+  for (int i = 0; i < frames; ++i) system.Process(poster.Frame(i));
+  return system.Finish();
 }
 
 TEST(System, FollowsTheCamera) {
-  const auto system = RunPoster(10);
-  ASSERT_EQ(system->frames().size(), 10U);
-  const auto map = system->MainMap();
+  const RunResult result = RunPoster(10);
+  ASSERT_EQ(result.frames.size(), 10U);
+  const auto map = result.MainMap();
   ASSERT_TRUE(map);
   for (const Trajectory& trajectory :
-       {system->FinalTrajectory(*map), system->CausalTrajectory(*map)}) {
+       {result.FinalTrajectory(*map), result.CausalTrajectory(*map)}) {
     ASSERT_EQ(trajectory.size(), 10U);
     for (int i = 0; i < 10; ++i) {
       const StampedPose& pose = trajectory[static_cast<std::size_t>(i)];
@@ -45,18 +44,18 @@ TEST(System, FollowsTheCamera) {
       EXPECT_LT((pose.world_from_camera.translation - expected).norm(), 0.01) << i;
     }
   }
-  const Trajectory keyframes = system->KeyFrameTrajectory(*map);
+  const Trajectory keyframes = result.KeyFrameTrajectory(*map);
   EXPECT_EQ(keyframes.front().stamp_ns, MovingPoster::StampNs(0));
-  system->maps().rbegin()->second.CheckInvariants();
+  result.atlas.maps().rbegin()->second.CheckInvariants();
 }
 
 TEST(System, KnowsTheCovarianceOfEachPoseButThatWhichStartsTheMap) {
   constexpr int kFrames = 10;
-  const auto system = RunPoster(kFrames);
-  const std::vector<StampedCovariance> covariances = system->CausalCovariances(MapId{0});
+  const RunResult result = RunPoster(kFrames);
+  const std::vector<StampedCovariance> covariances = result.CausalCovariances(MapId{0});
   ASSERT_EQ(covariances.size(), kFrames - 1U);
-  EXPECT_FALSE(system->frames()[0].causal_covariance);
-  const Trajectory poses = system->CausalTrajectory(MapId{0});
+  EXPECT_FALSE(result.frames[0].causal_covariance);
+  const Trajectory poses = result.CausalTrajectory(MapId{0});
   double chi2 = 0;
   for (std::size_t i = 0; i < covariances.size(); ++i) {
     EXPECT_EQ(covariances[i].stamp_ns, MovingPoster::StampNs(static_cast<int>(i) + 1));
@@ -78,8 +77,8 @@ TEST(System, KnowsTheCovarianceOfEachPoseButThatWhichStartsTheMap) {
 
 // Every keyframe has to be able to make landmarks of its lines.
 TEST(System, FindsLinesInTheRightImageOfEveryKeyFrame) {
-  const auto system = RunPoster(10);
-  const auto& keyframes = system->maps().rbegin()->second.keyframes();
+  const RunResult result = RunPoster(10);
+  const auto& keyframes = result.atlas.maps().rbegin()->second.keyframes();
   ASSERT_GE(keyframes.size(), 2U);
   for (const auto& [id, keyframe] : keyframes) {
     const auto& right = keyframe.frame.features().line_right;
@@ -90,10 +89,64 @@ TEST(System, FindsLinesInTheRightImageOfEveryKeyFrame) {
 }
 
 TEST(System, RefusesFramesThatAreNoLaterThanTheLast) {
-  const auto system = RunPoster(3);
-  EXPECT_THROW(system->Process(MovingPoster().Frame(2)), InputError);
-  EXPECT_EQ(system->frames().size(), 3U);
-  EXPECT_EQ(system->Process(MovingPoster().Frame(3)).status, FrameStatus::kTracked);
+  System system(MovingPoster::MakeCalibration(), SlamOptions{});
+  const MovingPoster poster;
+  for (int i = 0; i < 3; ++i) system.Process(poster.Frame(i));
+  EXPECT_THROW(system.Process(poster.Frame(2)), InputError);
+  EXPECT_EQ(system.Process(poster.Frame(3)).status, FrameStatus::kTracked);
+  EXPECT_EQ(system.Finish().frames.size(), 4U);
+}
+
+TEST(RunResult, MainMapIsThatOfMostFramesAndOfTwoTheFirst) {
+  RunResult result;
+  EXPECT_FALSE(result.MainMap());
+  const auto add = [&](FrameStatus status, std::int64_t map) {
+    FrameRecord record;
+    record.id = FrameId{static_cast<std::int64_t>(result.frames.size())};
+    record.status = status;
+    record.map = MapId{map};
+    result.frames.Add(record);
+  };
+  add(FrameStatus::kTracked, 1);
+  add(FrameStatus::kLost, 0);
+  EXPECT_EQ(result.MainMap(), MapId{1});
+  add(FrameStatus::kTracked, 0);
+  EXPECT_EQ(result.MainMap(), MapId{0});
+  add(FrameStatus::kTracked, 1);
+  EXPECT_EQ(result.MainMap(), MapId{1});
+}
+
+TEST(System, IsFinishedOnce) {
+  System system(MovingPoster::MakeCalibration(), SlamOptions{});
+  system.Process(MovingPoster().Frame(0));
+  system.Finish();
+  MapEventCounts known;
+  EXPECT_THROW(system.Process(MovingPoster().Frame(1)), BugError);
+  EXPECT_THROW(system.ReadMaps([](const CurrentMaps&) {}), BugError);
+  EXPECT_THROW(system.EventsSince(known), BugError);
+  EXPECT_THROW(system.Finish(), BugError);
+}
+
+TEST(System, ShowsItsMapsWhileItRuns) {
+  for (const RunMode mode : {RunMode::kInline, RunMode::kLockstep, RunMode::kLive}) {
+    SlamOptions options;
+    options.slam.mode = mode;
+    System system(MovingPoster::MakeCalibration(), options);
+    const MovingPoster poster;
+    for (int i = 0; i < 3; ++i) system.Process(poster.Frame(i));
+    std::size_t keyframes = 0;
+    SavedAtlas copied;
+    system.ReadMaps([&](const CurrentMaps& maps) {
+      keyframes = maps.atlas.active().keyframes().size();
+      copied = maps.copy();
+    });
+    system.WaitForMapping();
+    EXPECT_GE(keyframes, 1U) << NameOf(mode);
+    EXPECT_EQ(copied.atlas.active().keyframes().size(), keyframes);
+    ASSERT_EQ(copied.context.sessions.size(), 1U);
+    EXPECT_EQ(copied.context.sessions[0].last_stamp_ns, MovingPoster::StampNs(2));
+    EXPECT_EQ(copied.context.maps.size(), 1U);
+  }
 }
 
 TEST(System, TheWorldIsTheFirstKeyFramesCameraAsDelivered) {
@@ -103,14 +156,14 @@ TEST(System, TheWorldIsTheFirstKeyFramesCameraAsDelivered) {
     EXPECT_EQ(system.Process(MovingPoster::BlindFrame(0)).status, FrameStatus::kInitializing);
     const FrameRecord& first = system.Process(poster.Frame(1));
     ASSERT_EQ(first.status, FrameStatus::kTracked) << yaw;
-    system.Finish();
+    const RunResult result = system.Finish();
     EXPECT_LT(LogSe3(*first.causal_world_from_camera).norm(), 1e-12);
-    const Trajectory final = system.FinalTrajectory(MapId{0});
+    const Trajectory final = result.FinalTrajectory(MapId{0});
     ASSERT_EQ(final.size(), 1U);
     EXPECT_LT(LogSe3(final[0].world_from_camera).norm(), 1e-12);
-    EXPECT_LT(LogSe3(system.KeyFrameTrajectory(MapId{0})[0].world_from_camera).norm(), 1e-12);
+    EXPECT_LT(LogSe3(result.KeyFrameTrajectory(MapId{0})[0].world_from_camera).norm(), 1e-12);
     // Inside, the camera is the rectified one.
-    const auto& keyframe = system.maps().at(MapId{0}).keyframes().begin()->second;
+    const auto& keyframe = result.atlas.maps().at(MapId{0}).keyframes().begin()->second;
     EXPECT_NEAR(LogSo3(keyframe.frame.cam_from_world.rotation).norm(), yaw, 1e-6);
   }
 }
@@ -129,13 +182,13 @@ TEST(System, CountsSkippedFramesAndGoesOn) {
     EXPECT_EQ(system.Process(poster.Frame(i)).status, FrameStatus::kTracked) << i;
   }
   EXPECT_THROW(system.Skip(MovingPoster::StampNs(7), "late"), InputError);
-  system.Finish();
-  ASSERT_EQ(system.frames().size(), 8U);
+  const RunResult result = system.Finish();
+  ASSERT_EQ(result.frames.size(), 8U);
   for (std::size_t i = 0; i < 8; ++i) {
-    EXPECT_EQ(system.frames()[i].id, FrameId{static_cast<std::int64_t>(i)});
-    EXPECT_EQ(system.frames()[i].stamp_ns, MovingPoster::StampNs(static_cast<int>(i)));
+    EXPECT_EQ(result.frames[i].id, FrameId{static_cast<std::int64_t>(i)});
+    EXPECT_EQ(result.frames[i].stamp_ns, MovingPoster::StampNs(static_cast<int>(i)));
   }
-  EXPECT_EQ(system.FinalTrajectory(MapId{0}).size(), 7U);
+  EXPECT_EQ(result.FinalTrajectory(MapId{0}).size(), 7U);
 }
 
 TEST(System, LostFramesSayWhyAndHaveNoPose) {
@@ -147,8 +200,8 @@ TEST(System, LostFramesSayWhyAndHaveNoPose) {
   EXPECT_EQ(lost.reason, "too_few_features");
   EXPECT_FALSE(lost.causal_world_from_camera);
   EXPECT_EQ(system.Process(poster.Frame(4)).status, FrameStatus::kTracked);
-  system.Finish();
-  EXPECT_EQ(system.CausalTrajectory(MapId{0}).size(), 4U);
+  const RunResult result = system.Finish();
+  EXPECT_EQ(result.CausalTrajectory(MapId{0}).size(), 4U);
 }
 
 // Frames that show nothing say nothing against the map: when the camera sees again, it is looked
@@ -168,9 +221,9 @@ TEST(System, ACoveredLensDoesNotEndAMap) {
       tracked += system.Process(poster.Frame(i)).status == FrameStatus::kTracked;
     }
     EXPECT_GE(tracked, 9);
-    system.Finish();
-    ASSERT_EQ(system.maps().size(), 1U);
-    const Trajectory poses = system.FinalTrajectory(MapId{0});
+    const RunResult result = system.Finish();
+    ASSERT_EQ(result.atlas.maps().size(), 1U);
+    const Trajectory poses = result.FinalTrajectory(MapId{0});
     const Eigen::Vector3d expected(51 * MovingPoster::kStep, 0, 0);
     EXPECT_LT((poses.back().world_from_camera.translation - expected).norm(), 0.02);
   }
@@ -202,9 +255,9 @@ TEST(System, AfterALongNightTheOldMapIsAskedFirst) {
         EXPECT_EQ(frame.status, FrameStatus::kLost);
       }
     }
-    EXPECT_EQ(system.frames().back().status, FrameStatus::kTracked);
-    EXPECT_EQ(system.frames().back().map, MapId{elsewhere ? 1 : 0});
-    system.Finish();
+    const RunResult result = system.Finish();
+    EXPECT_EQ(result.frames.back().status, FrameStatus::kTracked);
+    EXPECT_EQ(result.frames.back().map, MapId{elsewhere ? 1 : 0});
   }
 }
 
@@ -212,26 +265,26 @@ TEST(System, IsCompleteWithoutTheAdjustmentThatEndsARun) {
   System system(MovingPoster::MakeCalibration(), SlamOptions{});
   const MovingPoster poster;
   for (int i = 0; i < 8; ++i) system.Process(poster.Frame(i));
-  system.Finish([] { return true; });
-  EXPECT_EQ(system.FinalTrajectory(MapId{0}).size(), 8U);
-  EXPECT_TRUE(system.LineMap(MapId{0}, [] { return true; }).empty());
-  system.maps().at(MapId{0}).CheckInvariants();
+  const RunResult result = system.Finish([] { return true; });
+  EXPECT_EQ(result.FinalTrajectory(MapId{0}).size(), 8U);
+  EXPECT_TRUE(result.LineMap(MapId{0}, [] { return true; }).empty());
+  result.atlas.maps().at(MapId{0}).CheckInvariants();
 }
 
 TEST(System, RepeatsToTheLastBit) {
   const auto a = RunPoster(8);
   const auto b = RunPoster(8);
-  EXPECT_TRUE(SameBits(a->FinalTrajectory(MapId{0}), b->FinalTrajectory(MapId{0})));
-  EXPECT_TRUE(SameBits(a->CausalTrajectory(MapId{0}), b->CausalTrajectory(MapId{0})));
-  EXPECT_TRUE(SameBits(a->KeyFrameTrajectory(MapId{0}), b->KeyFrameTrajectory(MapId{0})));
+  EXPECT_TRUE(SameBits(a.FinalTrajectory(MapId{0}), b.FinalTrajectory(MapId{0})));
+  EXPECT_TRUE(SameBits(a.CausalTrajectory(MapId{0}), b.CausalTrajectory(MapId{0})));
+  EXPECT_TRUE(SameBits(a.KeyFrameTrajectory(MapId{0}), b.KeyFrameTrajectory(MapId{0})));
 }
 
 TEST(System, WithoutATrackedFrameThereIsNoMap) {
   System system(MovingPoster::MakeCalibration(), SlamOptions{});
   EXPECT_EQ(system.Process(MovingPoster::BlindFrame(0)).reason, "too_few_features");
-  system.Finish();
-  EXPECT_FALSE(system.MainMap());
-  EXPECT_TRUE(system.maps().empty());
+  const RunResult result = system.Finish();
+  EXPECT_FALSE(result.MainMap());
+  EXPECT_TRUE(result.atlas.maps().empty());
 }
 
 TEST(System, RejectsTheLastFrameAsReferenceOfOneCamera) {
@@ -248,7 +301,7 @@ TEST(System, RejectsImagesOfAnotherSize) {
   System system(MovingPoster::MakeCalibration(), SlamOptions{});
   SensorFrame small{0, GrayImage(40, 30), GrayImage(40, 30), {}};
   EXPECT_THROW(system.Process(small), InputError);
-  EXPECT_TRUE(system.frames().empty());
+  EXPECT_TRUE(system.Finish().frames.empty());
 }
 
 TEST(System, RejectsFramesWithoutAnImageOfItsCalibration) {
@@ -274,11 +327,11 @@ TEST(System, RejectsACalibrationThatNoCameraHas) {
 TEST(System, RejectsMapsThatAreNotThere) {
   System system(MovingPoster::MakeCalibration(), SlamOptions{});
   system.Process(MovingPoster().Frame(0));
-  system.Finish();
-  EXPECT_EQ(system.FinalTrajectory(MapId{0}).size(), 1U);
-  EXPECT_THROW(system.FinalTrajectory(MapId{7}), InputError);
-  EXPECT_THROW(system.KeyFrameTrajectory(MapId{7}), InputError);
-  EXPECT_THROW(system.LineMap(MapId{7}), InputError);
+  const RunResult result = system.Finish();
+  EXPECT_EQ(result.FinalTrajectory(MapId{0}).size(), 1U);
+  EXPECT_THROW(result.FinalTrajectory(MapId{7}), InputError);
+  EXPECT_THROW(result.KeyFrameTrajectory(MapId{7}), InputError);
+  EXPECT_THROW(result.LineMap(MapId{7}), InputError);
 }
 
 // Seen by one camera: above, the poster; below, the same at half the distance.
@@ -299,19 +352,21 @@ TEST(System, LocatesFramesOfAYoungMonocularMapAgain) {
   System system(calibration, SlamOptions{});
   const MovingPoster poster;
   std::vector<FrameRecord> tracked;
+  Trajectory causal;
   for (int i = 0; i < kFrames; ++i) {
     const FrameRecord& record = system.Process(TwoPosters(poster, i));
-    if (record.causal_world_from_camera && !record.keyframe) tracked.push_back(record);
+    if (!record.causal_world_from_camera) continue;
+    causal.push_back({record.stamp_ns, *record.causal_world_from_camera});
+    if (!record.keyframe) tracked.push_back(record);
   }
   ASSERT_GT(tracked.size(), 5U);
-  const Trajectory causal = system.CausalTrajectory(MapId{0});
-  system.Finish();
+  const RunResult result = system.Finish();
   const FrameRecord& first = tracked.front();
-  const FrameRecord& now = system.frames()[static_cast<std::size_t>(first.id.value)];
+  const FrameRecord& now = result.frames[static_cast<std::size_t>(first.id.value)];
   EXPECT_NE(now.from_reference.cam_from_keyframe.translation,
             first.from_reference.cam_from_keyframe.translation);
-  EXPECT_TRUE(SameBits(system.CausalTrajectory(MapId{0}), causal));
-  const Trajectory final = system.FinalTrajectory(MapId{0});
+  EXPECT_TRUE(SameBits(result.CausalTrajectory(MapId{0}), causal));
+  const Trajectory final = result.FinalTrajectory(MapId{0});
   ASSERT_EQ(final.size(), static_cast<std::size_t>(kFrames));
   const double length = final.back().world_from_camera.translation.x() -
                         final.front().world_from_camera.translation.x();
@@ -331,8 +386,8 @@ int CountStage(const FrameRecord& record, const std::string& stage) {
 }
 
 TEST(System, TimesEveryFrame) {
-  const auto system = RunPoster(3);
-  for (const FrameRecord& record : system->frames()) {
+  const RunResult result = RunPoster(3);
+  for (const FrameRecord& record : result.frames) {
     ASSERT_FALSE(record.times.empty());
     EXPECT_EQ(record.times.front().stage, "rectify");
     EXPECT_EQ(CountStage(record, "total"), 1);
@@ -353,17 +408,17 @@ TEST(System, TellsThePoseBeforeTheKeyFrameIsHandedOn) {
     EXPECT_EQ(pose.causal_world_from_camera->translation,
               complete.causal_world_from_camera->translation);
   }
-  told.Finish();
-  whole.Finish();
-  EXPECT_EQ(CountStage(told.frames()[7], "after_keyframe"), 1);
-  EXPECT_EQ(told.maps().at(MapId{0}).keyframes().size(),
-            whole.maps().at(MapId{0}).keyframes().size());
+  const RunResult told_result = told.Finish();
+  const RunResult whole_result = whole.Finish();
+  EXPECT_EQ(CountStage(told_result.frames[7], "after_keyframe"), 1);
+  EXPECT_EQ(told_result.atlas.maps().at(MapId{0}).keyframes().size(),
+            whole_result.atlas.maps().at(MapId{0}).keyframes().size());
 }
 
 TEST(System, CountsWhatIsDoneAtTheEndWithTheLastFrame) {
-  const auto system = RunPoster(3);
-  EXPECT_EQ(CountStage(system->frames()[1], "map_finish"), 0);
-  EXPECT_GT(CountStage(system->frames()[2], "map_finish"), 0);
+  const RunResult result = RunPoster(3);
+  EXPECT_EQ(CountStage(result.frames[1], "map_finish"), 0);
+  EXPECT_GT(CountStage(result.frames[2], "map_finish"), 0);
 }
 
 }  // namespace system_test
