@@ -148,8 +148,6 @@ TrackingResult System::FollowMap(ExtractedFrame& extracted,
   for (const StageTime& time : TakeMappingTimes()) clock.Add(time.stage, time.milliseconds);
   const auto relocalized = TakeRelocalized(record.id);
   const auto& snapshot = relocalized != nullptr ? relocalized : due;
-  const auto earlier =
-      tracker_.state() == TrackerState::kLost ? mapping_.EarlierSnapshot() : nullptr;
   if (snapshot != nullptr) map_ = snapshot->map;
   if (tracker_.NeedsRightLines()) {
     extracted.indexed =
@@ -160,7 +158,7 @@ TrackingResult System::FollowMap(ExtractedFrame& extracted,
                                          record.stamp_ns,
                                          std::move(extracted.indexed),
                                          snapshot.get(),
-                                         {earlier.get(), FeatureShare(extracted.shed)});
+                                         FeatureShare(extracted.shed));
   record.keyframe = result.keyframe.has_value();
   if (result.starts_map) map_ = MapId{next_map_++};
   RecordTracking(result, record);
@@ -185,6 +183,7 @@ void System::Complete() {
     mapping_.Submit(frame, UpdateLocalMapRequest{map_, result.frame.points, result.frame.lines});
   }
   Relocalize(result);
+  LookInEarlierSnapshot(result);
   if (monocular_initialization_) {
     if (result.cam_from_world) monocular_initialization_->Tracked(result);
     if (result.state == TrackerState::kInitializing) monocular_initialization_->Restart();
@@ -208,23 +207,41 @@ void System::CompleteRightLines(UnfinishedFrame& unfinished, StageClock& clock) 
 // if it is still lost. Returns the snapshot around that place; null if there is no place to
 // continue from.
 std::shared_ptr<const MapSnapshot> System::TakeRelocalized(FrameId frame) {
+  const auto in_earlier = std::move(found_in_earlier_);
   const auto outcome = mapping_.TakeRelocalization();
-  if (!outcome) return nullptr;
-  relocalizing_ = false;
-  if (!outcome->found) tracker_.NotFound();
-  if (!outcome->found || tracker_.state() != TrackerState::kLost) return nullptr;
-  if (TrackedSince(outcome->found->frame.id)) return nullptr;
-  tracker_.FollowFrom(*outcome->found, *outcome->snapshot);
-  mapping_.Use(outcome->snapshot);
-  if (outcome->snapshot->map != map_ && !result_.read_only) {
-    mapping_.Submit(frame.value, SwitchMap{outcome->snapshot->map, outcome->found->keyframe});
-    if (monocular_initialization_) monocular_initialization_->MapLeft();
+  if (outcome) relocalizing_ = false;
+  if (outcome && !outcome->found) tracker_.NotFound();
+  if (tracker_.state() != TrackerState::kLost) return nullptr;
+  if (outcome && outcome->found && !TrackedSince(outcome->found->frame.id)) {
+    mapping_.Use(outcome->snapshot);
+    if (outcome->snapshot->map != map_ && !result_.read_only) {
+      mapping_.Submit(frame.value, SwitchMap{outcome->snapshot->map, outcome->found->keyframe});
+      if (monocular_initialization_) monocular_initialization_->MapLeft();
+    }
+    return FollowFrom(*outcome);
   }
-  result_.events.relocalizations.push_back({outcome->found->frame.id,
-                                            outcome->found->keyframe,
-                                            outcome->found->counts.inlier_points,
-                                            outcome->found->counts.inlier_lines});
-  return outcome->snapshot;
+  if (in_earlier && in_earlier->snapshot->map == map_) return FollowFrom(*in_earlier);
+  return nullptr;
+}
+
+std::shared_ptr<const MapSnapshot> System::FollowFrom(const RelocalizationOutcome& outcome) {
+  const Relocalized& found = *outcome.found;
+  tracker_.FollowFrom(found, *outcome.snapshot);
+  result_.events.relocalizations.push_back(
+      {found.frame.id, found.keyframe, found.counts.inlier_points, found.counts.inlier_lines});
+  return outcome.snapshot;
+}
+
+// Live runs: looks for a lost frame in an earlier snapshot of the map, since mapping may have no
+// time to look for it soon. The next frame is tracked against that snapshot.
+void System::LookInEarlierSnapshot(const TrackingResult& result) {
+  if (result.state != TrackerState::kLost) return;
+  const auto earlier = mapping_.EarlierSnapshot();
+  if (earlier == nullptr) return;
+  auto found = stages_->relocalizer.Find(result.frame, *earlier);
+  if (!found) return;
+  found_in_earlier_ =
+      std::make_unique<RelocalizationOutcome>(RelocalizationOutcome{std::move(found), earlier});
 }
 
 // Relocalization is outdated if the camera was tracked and lost again meanwhile: it may have made

@@ -30,6 +30,7 @@ struct CameraAndPyramid;
 struct InitialMap;
 struct LoopAttempt;
 struct MapSnapshot;
+struct RelocalizationOutcome;
 struct SystemMethods;
 struct SystemStages;
 struct TrackingResult;
@@ -170,6 +171,8 @@ class System {
   // Returns the number of this run among the sessions of the maps.
   SessionId session_id() const;
   std::shared_ptr<const MapSnapshot> TakeRelocalized(FrameId frame);
+  std::shared_ptr<const MapSnapshot> FollowFrom(const RelocalizationOutcome& outcome);
+  void LookInEarlierSnapshot(const TrackingResult& result);
   bool TrackedSince(FrameId frame) const;
   void Relocalize(const TrackingResult& result);
   TrackingResult FollowMap(ExtractedFrame& extracted, FrameRecord& record, StageClock& clock);
@@ -201,6 +204,7 @@ class System {
   MapId map_;  // map tracked against
   std::int64_t next_map_ = 0;
   bool relocalizing_ = false;  // true if a relocalization was requested and has no result yet
+  std::unique_ptr<RelocalizationOutcome> found_in_earlier_;  // of the last frame; null if none
   bool finished_ = false;
   // The result so far: of the maps only their context, without what mapping adds at the end.
   RunResult result_;

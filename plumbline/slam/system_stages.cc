@@ -31,6 +31,9 @@ SystemStages::SystemStages(const Calibration& calibration,
               options.tracking,
               methods.MakePoseEstimator(imaging.camera, options),
               WorldFromFirstCamera(front_end.rectifier()),
-              PatienceOf(options)) {}
+              PatienceOf(options)),
+      relocalizer(imaging,
+                  options.tracking,
+                  PoseEstimator(imaging.camera, options.lines, options.cutting)) {}
 
 }  // namespace plumbline

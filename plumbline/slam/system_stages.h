@@ -13,6 +13,7 @@
 #include "plumbline/slam/mapper_thread.h"
 #include "plumbline/slam/monocular_initialization.h"
 #include "plumbline/slam/options.h"
+#include "plumbline/tracking/relocalization.h"
 #include "plumbline/tracking/tracker.h"
 
 #include <memory>
@@ -31,6 +32,7 @@ struct SystemStages {
   CameraAndPyramid imaging;
   MapperThread mapping;
   Tracker tracker;
+  Relocalizer relocalizer;  // for live runs: in earlier snapshots
   std::unique_ptr<MonocularInitialization> monocular_initialization;  // null if depth is measured
 };
 

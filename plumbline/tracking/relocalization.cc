@@ -4,7 +4,6 @@
 
 #include "plumbline/base/units.h"
 #include "plumbline/map/covisibility.h"
-#include "plumbline/map/snapshot.h"
 
 #include <algorithm>
 #include <map>
@@ -63,23 +62,28 @@ Relocalizer::Relocalizer(const CameraAndPyramid& imaging,
                          const PoseEstimator& estimator)
     : search_(imaging, tracking, estimator) {}
 
-std::optional<Relocalized> Relocalizer::FindBeside(const PlaceToTry& place,
-                                                   const Frame& frame) const {
-  const auto& [map, id] = place;
-  const auto snapshot = TakeSnapshot(*map, id);
+std::optional<Relocalized> Relocalizer::Find(const Frame& frame,
+                                             const MapSnapshot& snapshot) const {
+  Frame corrected = frame;
+  corrected.indexed = WithCorrection(frame.indexed, snapshot.correction);
+  return FindCorrected(corrected, snapshot);
+}
+
+std::optional<Relocalized> Relocalizer::FindCorrected(const Frame& frame,
+                                                      const MapSnapshot& snapshot) const {
   // The keyframe stands in for the last frame.
-  const LastFrame keyframe{snapshot->reference->frame, {}};
+  const LastFrame keyframe{snapshot.reference->frame, {}};
   LandmarkMatches found;
   FrameCounts counts;
-  const auto first = search_.FromAppearance(frame, keyframe, *snapshot, found, counts);
+  const auto first = search_.FromAppearance(frame, keyframe, snapshot, found, counts);
   if (!first) return std::nullopt;
   PoseAttempt attempt =
-      search_.WithLocalMap(frame, *first, {first->cam_from_world}, *snapshot, found, {});
+      search_.WithLocalMap(frame, *first, {first->cam_from_world}, snapshot, found, {});
   if (attempt.pose.Inliers() < kMinInliers || !search_.Accepted(attempt.pose) ||
       !search_.Agreed(attempt.pose, attempt.counts)) {
     return std::nullopt;
   }
-  Relocalized result{frame, std::move(attempt.association), id, attempt.counts};
+  Relocalized result{frame, std::move(attempt.association), snapshot.centre, attempt.counts};
   result.frame.cam_from_world = attempt.pose.cam_from_world;
   result.counts.inlier_points = attempt.pose.inlier_points;
   result.counts.inlier_lines = attempt.pose.inlier_lines;
@@ -96,7 +100,9 @@ std::optional<Relocalized> Relocalizer::Find(const Frame& frame,
     if (!(corrected.indexed->correction == correction)) {
       corrected.indexed = WithCorrection(frame.indexed, correction);
     }
-    if (auto found = FindBeside(place, corrected)) places.push_back({place.map, *std::move(found)});
+    const auto snapshot = TakeSnapshot(*place.map, place.keyframe);
+    auto found = FindCorrected(corrected, *snapshot);
+    if (found) places.push_back({place.map, *std::move(found)});
   }
   if (places.empty()) return std::nullopt;
   const auto best =

@@ -4,6 +4,7 @@
 
 #include "plumbline/map/frame.h"
 #include "plumbline/map/map.h"
+#include "plumbline/map/snapshot.h"
 #include "plumbline/matching/projection_search.h"
 #include "plumbline/tracking/options.h"
 #include "plumbline/tracking/pose_search.h"
@@ -53,9 +54,12 @@ class Relocalizer {
   // frame's own pose and matches are not used. Two maps count as two places, even if they show the
   // same one.
   std::optional<Relocalized> Find(const Frame& frame, std::span<const PlaceToTry> candidates) const;
+  // Finds the pose of a frame in a snapshot, from its centre as the only candidate.
+  std::optional<Relocalized> Find(const Frame& frame, const MapSnapshot& snapshot) const;
 
  private:
-  std::optional<Relocalized> FindBeside(const PlaceToTry& place, const Frame& frame) const;
+  // The features are corrected as in the snapshot.
+  std::optional<Relocalized> FindCorrected(const Frame& frame, const MapSnapshot& snapshot) const;
 
   PoseSearch search_;
 };

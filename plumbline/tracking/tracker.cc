@@ -28,12 +28,12 @@ bool ShowsMore(const LandmarkMatches& a, const LandmarkMatches& b) {
   return map_a > map_b;
 }
 
-// Multiplies all lengths of a pose by `scale`.
-void Rescale(double scale, PoseEstimate& pose) {
-  if (scale == 1) return;
-  pose.information.bottomRows<3>() /= scale;
-  pose.information.rightCols<3>() /= scale;
-  pose.scene_depth *= scale;
+// Returns the attempt to be preferred (ShowsMore), if there is one.
+std::optional<PoseAttempt> Better(std::optional<PoseAttempt> predicted,
+                                  std::optional<PoseAttempt> other) {
+  if (!predicted) return other;
+  return other && ShowsMore(other->association, predicted->association) ? std::move(other)
+                                                                        : std::move(predicted);
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ TrackingResult Tracker::Track(FrameId id,
                               std::int64_t stamp_ns,
                               std::shared_ptr<const FrameFeatures> indexed,
                               const MapSnapshot* snapshot,
-                              const LiveConditions& live) {
+                              double feature_share) {
   Frame frame;
   frame.id = id;
   frame.stamp_ns = stamp_ns;
@@ -75,86 +75,37 @@ TrackingResult Tracker::Track(FrameId id,
     trial_keyframes_ = std::max(trial_keyframes_, 1);
     return FinishLost(std::move(frame), TrackingFailure::kMapWithdrawn, {});
   }
-  return TrackInMap(std::move(frame), *snapshot, live);
+  return TrackInMap(std::move(frame), *snapshot, feature_share);
 }
 
-TrackingResult Tracker::TrackInMap(Frame frame,
-                                   const MapSnapshot& map,
-                                   const LiveConditions& live) {
+TrackingResult Tracker::TrackInMap(Frame frame, const MapSnapshot& map, double feature_share) {
   ++frames_since_keyframe_;
-  UpdateLastFrame(map);
+  UpdateLastFrame(map);  // mapping may have moved its reference keyframe
   const Rigid3 last_pose = last_->frame.cam_from_world;
   const double seconds = 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns);
   const PosePrior predicted = motion_.Predict(last_pose, seconds);
 
-  PoseCandidate found = EstimatePose(frame, predicted, map);
-  const bool in_earlier = !found.Succeeded() && live.earlier != nullptr &&
-                          FindInEarlierMap(*live.earlier, frame, found);
-  const MapSnapshot& seen = in_earlier ? *live.earlier : map;
-  const bool map_learns = !use_ || !use_->read_only;
-  if (found.attempt && map_learns) {
-    CountSeen(found.attempt->expected, found.attempt->association, scores_);
+  FrameCounts counts;  // matches by descriptors
+  std::optional<PoseAttempt> best = TrackWithMotionModel(frame, predicted, map);
+  // Without a known motion the prediction finds whatever happens to lie there. Where much less is
+  // found than in the frame before, the motion was unexpected.
+  if (!best || !motion_.IsKnown() || IsWeak(*best)) {
+    best = Better(std::move(best), TrackReferenceKeyFrame(frame, map, counts));
   }
-  if (!found.Succeeded()) return FinishLost(std::move(frame), found.failure, found.counts);
+  const bool map_learns = !use_ || !use_->read_only;
+  if (best && map_learns) CountSeen(best->expected, best->association, scores_);
 
-  PoseAttempt& attempt = *found.attempt;
-  frame.cam_from_world = attempt.pose.cam_from_world;
-  SetLandmarks(attempt.association, frame);
-  const bool needs_keyframe = NeedsKeyFrame(frame, attempt.association, seen, live.feature_share);
-  const KeyFramePose reference = MoveToMap(map, seen, attempt.pose);
-  frame.cam_from_world = attempt.pose.cam_from_world;
-  const Matrix6d covariance = motion_.Observe(last_pose, attempt.pose, seconds);
-  TrackingResult result =
-      FinishTracked(std::move(frame), std::move(found), seen.centre, reference, needs_keyframe);
+  PoseCandidate pose = CheckPose(std::move(best), counts);
+  if (pose.failure != TrackingFailure::kNone) {
+    return FinishLost(std::move(frame), pose.failure, pose.counts);
+  }
+  frame.cam_from_world = pose.attempt->pose.cam_from_world;
+  SetLandmarks(pose.attempt->association, frame);
+  const Matrix6d covariance = motion_.Observe(last_pose, pose.attempt->pose, seconds);
+  const bool needs_keyframe = NeedsKeyFrame(frame, pose.attempt->association, map, feature_share);
+  TrackingResult result = FinishTracked(std::move(frame), std::move(pose), map, needs_keyframe);
   result.covariance = covariance;
   return result;
-}
-
-// Looks for the pose in an earlier snapshot, by descriptors. Returns true if it is there; the frame
-// has the corrections of that snapshot then.
-bool Tracker::FindInEarlierMap(const MapSnapshot& earlier,
-                               Frame& frame,
-                               PoseCandidate& found) const {
-  Frame corrected = frame;
-  corrected.indexed = WithCorrection(frame.indexed, earlier.correction);
-  FrameCounts counts;
-  std::optional<PoseAttempt> attempt = TrackReferenceKeyFrame(corrected, earlier, counts);
-  PoseCandidate again = CheckPose(std::move(attempt), counts);
-  if (!again.Succeeded()) return false;
-  frame = std::move(corrected);
-  found = std::move(again);
-  return true;
-}
-
-// Moves a pose that was found in the snapshot `seen` with the reference keyframe of that snapshot,
-// which may have moved since. Returns the pose of this keyframe in the map.
-KeyFramePose Tracker::MoveToMap(const MapSnapshot& map,
-                                const MapSnapshot& seen,
-                                PoseEstimate& pose) {
-  const KeyFramePose before = seen.places.at(seen.centre);
-  const auto now = map.places.find(seen.centre);
-  const KeyFramePose reference = now == map.places.end() ? before : now->second;
-  if (&seen == &map) return reference;
-  const Rigid3 from_reference = pose.cam_from_world * Inverse(before.cam_from_world);
-  pose.cam_from_world = ComposePose(reference, {from_reference, before.scale});
-  Rescale(reference.scale / before.scale, pose);
-  return reference;
-}
-
-// Tracks with the motion model. Tracks the reference keyframe by descriptors as well if that finds
-// no pose, if the motion is not known (a guess of no motion finds whatever happens to lie there),
-// or if much less is found than in the frame before (the motion was unexpected).
-Tracker::PoseCandidate Tracker::EstimatePose(const Frame& frame,
-                                             const PosePrior& predicted,
-                                             const MapSnapshot& snapshot) const {
-  FrameCounts counts;
-  std::optional<PoseAttempt> best = TrackWithMotionModel(frame, predicted, snapshot);
-  if (!best || !motion_.IsKnown() || IsWeak(*best)) {
-    std::optional<PoseAttempt> other = TrackReferenceKeyFrame(frame, snapshot, counts);
-    const bool better = other && (!best || ShowsMore(other->association, best->association));
-    if (better) best = std::move(other);
-  }
-  return CheckPose(std::move(best), counts);
 }
 
 std::optional<PoseAttempt> Tracker::TrackWithMotionModel(const Frame& frame,
@@ -236,30 +187,31 @@ bool Tracker::NeedsKeyFrame(const Frame& frame,
 }
 
 TrackingResult Tracker::FinishTracked(Frame frame,
-                                      PoseCandidate found,
-                                      KeyFrameId reference,
-                                      const KeyFramePose& place,
-                                      bool wants_keyframe) {
+                                      PoseCandidate pose,
+                                      const MapSnapshot& map,
+                                      bool needs_keyframe) {
+  const KeyFramePose& reference = map.places.at(map.centre);
   ForgetLoss();
   state_ = NextState(state_, true, 0, options_.new_map_after);
   TrackingResult result;
-  result.counts = found.counts;
+  result.counts = pose.counts;
   result.state = state_;
   result.cam_from_world = frame.cam_from_world;
-  result.reference = reference;
-  result.from_reference = {frame.cam_from_world * Inverse(place.cam_from_world), place.scale};
+  result.reference = map.centre;
+  result.from_reference = {frame.cam_from_world * Inverse(reference.cam_from_world),
+                           reference.scale};
   Anchor parent;
-  if (wants_keyframe && use_ && use_->read_only) {
+  if (needs_keyframe && use_ && use_->read_only) {
     result.leaves_surroundings = true;
     frames_since_keyframe_ = 0;
-  } else if (wants_keyframe) {
-    parent = {reference, result.from_reference};
-    result.keyframe = MakeKeyFrame(frame, reference, result.from_reference);
+  } else if (needs_keyframe) {
+    parent = {map.centre, result.from_reference};
+    result.keyframe = MakeKeyFrame(frame, map.centre, result.from_reference);
     result.reference = newest_keyframe_;
-    result.from_reference = {Rigid3{}, place.scale};
+    result.from_reference = {Rigid3{}, reference.scale};
   }
   result.frame = frame;
-  last_ = Tracked{{std::move(frame), std::move(found.attempt->association)},
+  last_ = Tracked{{std::move(frame), std::move(pose.attempt->association)},
                   {result.reference, result.from_reference},
                   parent};
   return result;

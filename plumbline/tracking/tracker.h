@@ -77,14 +77,6 @@ struct LossPatience {
   int blind_frames = 0;
 };
 
-// Input of the tracker in a live run in addition to the frame and the map.
-struct LiveConditions {
-  // The map around an earlier keyframe, tried by appearance if the map gives no pose. May be null.
-  const MapSnapshot* earlier = nullptr;
-  // Share of the usual number of features that was extracted.
-  double feature_share = 1;
-};
-
 // Result of Tracker::Track.
 struct TrackingResult {
   TrackerState state = TrackerState::kInitializing;  // state after this frame
@@ -130,11 +122,12 @@ class Tracker {
 
   // Tracks a frame. `snapshot` is null exactly while the tracker has no map. The snapshot of a
   // withdrawn map ends that map: the frame has no pose, and the next frames begin another map.
+  // `feature_share` is the share of the usual number of features that was extracted (live runs).
   TrackingResult Track(FrameId id,
                        std::int64_t stamp_ns,
                        std::shared_ptr<const FrameFeatures> indexed,
                        const MapSnapshot* snapshot,
-                       const LiveConditions& live = {});
+                       double feature_share = 1);
 
   // Returns true if the next frame needs the positions of its lines in the right image before
   // tracking, which ExtractFeatures leaves out. A frame that starts a map, or replaces it
@@ -187,23 +180,13 @@ class Tracker {
 
   // A pose, or the reason why there is none.
   struct PoseCandidate {
-    // `counts` are those of this attempt.
     std::optional<PoseAttempt> attempt;
     TrackingFailure failure = TrackingFailure::kNone;
-    FrameCounts counts;
-
-    bool Succeeded() const { return failure == TrackingFailure::kNone; }
+    FrameCounts counts;  // of this attempt
   };
 
   // Tracks a frame against a map: predicts the pose, estimates it, decides about a keyframe.
-  TrackingResult TrackInMap(Frame frame, const MapSnapshot& map, const LiveConditions& live);
-  PoseCandidate EstimatePose(const Frame& frame,
-                             const PosePrior& predicted,
-                             const MapSnapshot& snapshot) const;
-  bool FindInEarlierMap(const MapSnapshot& earlier, Frame& frame, PoseCandidate& found) const;
-  static KeyFramePose MoveToMap(const MapSnapshot& map,
-                                const MapSnapshot& seen,
-                                PoseEstimate& pose);
+  TrackingResult TrackInMap(Frame frame, const MapSnapshot& map, double feature_share);
   std::optional<PoseAttempt> TrackWithMotionModel(const Frame& frame,
                                                   const PosePrior& predicted,
                                                   const MapSnapshot& snapshot) const;
@@ -224,12 +207,11 @@ class Tracker {
                      const MapSnapshot& snapshot,
                      double feature_share) const;
 
-  // reference, place: reference keyframe of the frame's pose, and its pose.
+  // The pose refers to the centre of the snapshot, the reference keyframe.
   TrackingResult FinishTracked(Frame frame,
-                               PoseCandidate found,
-                               KeyFrameId reference,
-                               const KeyFramePose& place,
-                               bool wants_keyframe);
+                               PoseCandidate pose,
+                               const MapSnapshot& map,
+                               bool needs_keyframe);
   TrackingResult FinishLost(Frame frame, TrackingFailure failure, FrameCounts counts);
   bool IsBlind(const Features& features) const;
   int Patience(const Frame& frame, bool blind) const;

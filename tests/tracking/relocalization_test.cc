@@ -144,6 +144,22 @@ TEST(Relocalizer, TriesTheCandidatesAlone) {
   EXPECT_EQ(found->keyframe, KeyFrameId{2});
 }
 
+TEST(Relocalizer, FindsAFrameInASnapshotAloneWhereItWasTaken) {
+  const SyntheticWorld world = MakeSyntheticWorld(400, 80);
+  const TrueMap scene = MapOf(world, 10);
+  const auto snapshot = TakeSnapshot(scene.map, KeyFrameId{2});
+  const Relocalizer relocalizer = MakeRelocalizer(world);
+  const auto found = relocalizer.Find(UnplacedFrame(world, 13), *snapshot);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->keyframe, KeyFrameId{2});
+  EXPECT_LT(CentreDistance(found->frame.cam_from_world, PoseOnPath(13)), 0.02);
+  Frame blank = UnplacedFrame(world, 13);
+  blank.indexed = IndexFeatures(world.camera, {});
+  blank.points.clear();
+  blank.lines.clear();
+  EXPECT_FALSE(relocalizer.Find(blank, *snapshot));
+}
+
 // Eight keyframes of one place, where the frame is not, do not keep it from the one where it is.
 TEST(Relocalizer, TriesCandidatesOfDifferentPlaces) {
   const SyntheticWorld world = MakeSyntheticWorld(300, 60);

@@ -413,53 +413,6 @@ TEST(Tracker, NeedsRightLinesToStartAMapAndForOdometry) {
   EXPECT_FALSE(follows.WantsRightLines(first));
 }
 
-// The newest snapshot shows nothing that the camera sees; one before it does. The map may have
-// moved in between.
-void ExpectToBeFoundInAnEarlierSnapshot(const Rigid3& map_motion) {
-  OneKeyFrame scene;
-  const auto earlier = TakeSnapshot(scene.map, KeyFrameId{0});
-  MapSnapshot elsewhere = *earlier;
-  elsewhere.centre = KeyFrameId{7};
-  elsewhere.cam_from_world = {{KeyFrameId{7}, Rigid3{}}};
-  elsewhere.places.at(KeyFrameId{0}).cam_from_world =
-      earlier->places.at(KeyFrameId{0}).cam_from_world * map_motion;
-  elsewhere.places[KeyFrameId{7}] = {};
-  elsewhere.points.clear();
-  elsewhere.lines.clear();
-  KeyFrame blank = *earlier->reference;
-  blank.id = KeyFrameId{7};
-  blank.frame = MakeFrame(FrameId{7}, Rigid3{}, {IndexFeatures(scene.world.camera, {}), {}, {}});
-  elsewhere.reference = std::make_shared<const KeyFrame>(blank);
-  std::int64_t stamp = 0;
-  const auto step = [&](const Rigid3& pose, const MapSnapshot& newest, const MapSnapshot* other) {
-    stamp += 50'000'000;
-    return scene.tracker.Track(FrameId{stamp / 50'000'000},
-                               stamp,
-                               Sense(scene.world, pose, {}, scene.rng).indexed,
-                               &newest,
-                               {.earlier = other});
-  };
-  // Blind for a frame, then turned so far that the last frame's landmarks are out of reach.
-  stamp += 50'000'000;
-  const TrackingResult blind =
-      scene.tracker.Track(FrameId{1}, stamp, IndexFeatures(scene.world.camera, {}), earlier.get());
-  ASSERT_EQ(blind.state, TrackerState::kLost);
-  const Rigid3 turned = Rigid3{ExpSo3({0, 0.35, 0}), Eigen::Vector3d::Zero()};
-  ASSERT_FALSE(step(turned, elsewhere, nullptr).cam_from_world);
-  const TrackingResult found = step(turned, elsewhere, earlier.get());
-  ASSERT_TRUE(found.cam_from_world);
-  EXPECT_LT(CentreDistance(*found.cam_from_world, turned * map_motion), 0.1);
-  EXPECT_EQ(found.keyframe ? found.keyframe->keyframe.parent : found.reference, KeyFrameId{0});
-}
-
-TEST(Tracker, LooksInAnEarlierSnapshotWhereTheNewestGivesNoPose) {
-  ExpectToBeFoundInAnEarlierSnapshot(Rigid3{});
-}
-
-TEST(Tracker, APoseInAnEarlierSnapshotMovesWithTheMap) {
-  ExpectToBeFoundInAnEarlierSnapshot({ExpSo3({0, 0.5, 0}), Eigen::Vector3d(3, 0, -5)});
-}
-
 TEST(Tracker, WaitsWithANewMapWhereItIsToldTo) {
   for (const double seconds : {0.0, 1.0}) {
     const SyntheticWorld world = World();
