@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/command_inputs.h"
 
-#include "plumbline/geometry/plausible_calibration.h"
+#include "plumbline/geometry/calibration.h"
 #include "plumbline/live/live_source.h"
 
 #include <filesystem>

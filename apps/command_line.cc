@@ -3,7 +3,6 @@
 #include "apps/command_line.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/base/nearest_name.h"
 #include "plumbline/base/printable.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
-#include "plumbline/base/nearest_name.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/io/process_settings.h"
 #include "plumbline/version.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
-#include "plumbline/base/nearest_name.h"
+#include "plumbline/base/printable.h"
 
 #include "apps/commands.h"
 #include "apps/map_commands.h"

@@ -3,7 +3,7 @@
 #include "apps/merge_atlases.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/geometry/camera_difference.h"
+#include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/map/combined_atlases.h"
 #include "plumbline/slam/options.h"

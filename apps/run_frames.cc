@@ -4,7 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/features/stereo_pair_check.h"
-#include "plumbline/image/box_filter.h"
+#include "plumbline/image/filters.h"
 #include "plumbline/report/summary.h"
 #include "plumbline/slam/pipeline.h"
 #include "plumbline/viewer/viewer.h"

@@ -3,7 +3,7 @@
 #include "long_drive.h"
 
 #include "plumbline/base/random.h"
-#include "plumbline/matching/line_information.h"
+#include "plumbline/matching/measurements.h"
 
 #include <algorithm>
 #include <cmath>
@@ -221,9 +221,9 @@ class DriveBuilder {
     feature.segment = Noisy(*left, rng);
     feature.sigma_px = kLineSigmaPx;
     features.lines.push_back(feature);
-    std::optional<RightLine> in_right;
+    std::optional<MeasuredSegment> in_right;
     if (right && right->Length() >= kMinLengthPx) {
-      in_right = RightLine{Noisy(*right, rng), kLineSigmaPx};
+      in_right = MeasuredSegment{Noisy(*right, rng), kLineSigmaPx};
     }
     features.line_right.push_back(in_right);
   }

@@ -168,7 +168,7 @@ void StereoPoints(benchmark::State& state) {
 
 void StereoLines(benchmark::State& state) {
   const Scene& scene = TheScene();
-  std::vector<std::optional<RightLine>> found;
+  std::vector<std::optional<MeasuredSegment>> found;
   for (auto _ : state) {
     found = MatchStereoLines(scene.camera, scene.left.lines, scene.right.lines, {});
   }
@@ -178,7 +178,7 @@ void StereoLines(benchmark::State& state) {
 // All against all, both ways.
 void PointsBruteForce(benchmark::State& state) {
   const Scene& scene = TheScene();
-  std::vector<PointMatch> found;
+  std::vector<FeatureMatch> found;
   for (auto _ : state) found = MatchPoints(scene.left.points, scene.next_left.points, {});
   Report(state, scene, scene.left.points.size(), scene.next_left.points.size(), found.size());
 }
@@ -188,7 +188,7 @@ void LinesBruteForce(benchmark::State& state) {
   const Scene& scene = TheScene();
   const LineMatchOptions options{
       .max_angle_deg = 180, .max_offset_px = 10000, .max_shift_px = 0, .min_length_ratio = 0};
-  std::vector<LineMatch> found;
+  std::vector<FeatureMatch> found;
   for (auto _ : state) {
     found = MatchLines(scene.left.lines, scene.next_left.lines, options);
   }

@@ -5,7 +5,7 @@
 #include "plumbline/features/lbd.h"
 #include "plumbline/features/line_detection.h"
 #include "plumbline/features/match_lines.h"
-#include "plumbline/image/gradient.h"
+#include "plumbline/image/filters.h"
 
 #include "apps/command_line.h"
 #include "arrays.h"
@@ -186,14 +186,14 @@ LineMatchOptions ReadMatching(const py::kwargs& given) {
 py::array Match(py::handle a, py::handle b, const py::kwargs& given) {
   const std::vector<LineFeature> first = ReadLines(a, "a"), second = ReadLines(b, "b");
   const LineMatchOptions options = ReadMatching(given);
-  std::vector<LineMatch> matches;
+  std::vector<FeatureMatch> matches;
   {
     const py::gil_scoped_release release;
     matches = MatchLines(first, second, options);
   }
   Integers array({static_cast<py::ssize_t>(matches.size()), py::ssize_t{3}});
   std::int64_t* out = array.mutable_data();
-  for (const LineMatch& match : matches) {
+  for (const FeatureMatch& match : matches) {
     for (const int value : {match.a, match.b, match.distance}) *out++ = value;
   }
   return array;

@@ -5,7 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/eval/trajectory_error.h"
 #include "plumbline/geometry/alignment.h"
-#include "plumbline/geometry/unit_rotation.h"
+#include "plumbline/geometry/se3.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/io/trajectory_io.h"
 

@@ -4,7 +4,7 @@
 // Makes a 3D line of its segments in two images, in Plücker coordinates.
 #include <iostream>
 
-#include <plumbline/geometry/line_triangulation.h>
+#include <plumbline/geometry/triangulation.h>
 
 int main() {
   using namespace plumbline;
@@ -20,9 +20,9 @@ int main() {
   }
   const auto line = TriangulateLine(camera, views);
   if (!line) return 1;  // line.error() says why
-  const PluckerLine& found = line->estimate.line;
+  const PluckerLine& found = line->line;
   std::cout << "direction " << found.direction.transpose() << ", moment "
             << found.moment.transpose() << "\nstandard deviations of the four parameters "
-            << line->estimate.covariance.diagonal().cwiseSqrt().transpose() << "\nerror "
+            << line->covariance.diagonal().cwiseSqrt().transpose() << "\nerror "
             << found.DistanceTo(truth.start) + found.DistanceTo(truth.end) << " m\n";
 }

@@ -5,8 +5,8 @@
 #include "lab/ceres_reference/ceres_manifolds.h"
 #include "lab/ceres_reference/ceres_terms.h"
 #include "lab/line_rivals/line_ends.h"
-#include "plumbline/base/chi2.h"
 #include "plumbline/base/error.h"
+#include "plumbline/base/statistics.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include "lab/ceres_reference/ceres_derivatives.h"
 #include "lab/line_rivals/rival_ba.h"
 #include "plumbline/optimization/problem.h"
-#include "plumbline/optimization/robust_loss.h"
+#include "plumbline/optimization/residuals.h"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/cutting_testbed/pose_from_lines.h"
 
-#include "plumbline/geometry/symmetric_system.h"
+#include "plumbline/geometry/symmetric_matrix.h"
 #include "plumbline/line_cutting/cut_residuals.h"
 
 #include <limits>

@@ -3,7 +3,7 @@
 #include "lab/experiments/figure_page.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/base/escape_html.h"
+#include "plumbline/base/printable.h"
 
 #include <algorithm>
 #include <map>

@@ -4,8 +4,8 @@
 
 #include "lab/experiments/figure_list.h"
 #include "lab/experiments/table_page.h"
-#include "plumbline/base/escape_html.h"
 #include "plumbline/base/input_file.h"
+#include "plumbline/base/printable.h"
 #include "plumbline/io/atomic_file.h"
 
 #include <optional>

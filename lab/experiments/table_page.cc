@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/table_page.h"
 
-#include "plumbline/base/escape_html.h"
+#include "plumbline/base/printable.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -4,7 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/eval/trajectory_error.h"
-#include "plumbline/geometry/stretches.h"
+#include "plumbline/geometry/segment.h"
 
 #include <algorithm>
 #include <cmath>

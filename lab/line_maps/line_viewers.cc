@@ -3,7 +3,7 @@
 #include "lab/line_maps/line_viewers.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/geometry/stretches.h"
+#include "plumbline/geometry/segment.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/line_rivals/line_from_ends.h"
 
-#include "plumbline/base/chi2.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/geometry/triangulation.h"
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/map/map.h"
@@ -46,9 +46,9 @@ std::optional<Eigen::Vector3d> Triangulate(const RectifiedCamera& camera,
     cam_from_world.translation.x() += camera.ShiftInto(image.measurement.camera);
     views.push_back({cam_from_world, image.measurement.segment.*end, image.sigma_px, std::nullopt});
   }
-  const auto found = TriangulatePoint(camera, views, {.min_parallax = kMinParallax});
+  const auto found = TriangulatePoint(camera, views, {.min_angle = kMinParallax});
   if (!found) return std::nullopt;
-  return found->point.position;
+  return found->position;
 }
 
 bool StaysOnMeasuredLine(const RectifiedCamera& camera,

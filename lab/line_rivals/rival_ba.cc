@@ -7,7 +7,7 @@
 #include "lab/line_rivals/line_ends.h"
 #include "plumbline/base/error.h"
 #include "plumbline/optimization/bundle_adjuster.h"
-#include "plumbline/optimization/check_problem.h"
+#include "plumbline/optimization/problem.h"
 
 #include <algorithm>
 #include <utility>

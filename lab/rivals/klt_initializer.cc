@@ -4,7 +4,7 @@
 
 #include "lab/rivals/start_steps.h"
 #include "plumbline/base/error.h"
-#include "plumbline/base/index.h"
+#include "plumbline/base/ids.h"
 #include "plumbline/base/random.h"
 #include "plumbline/initialization/initial_map.h"
 #include "plumbline/initialization/track_factorization.h"

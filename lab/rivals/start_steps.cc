@@ -3,8 +3,8 @@
 #include "lab/rivals/start_steps.h"
 
 #include "plumbline/base/elementary.h"
-#include "plumbline/base/index.h"
-#include "plumbline/base/median.h"
+#include "plumbline/base/ids.h"
+#include "plumbline/base/statistics.h"
 
 #include <algorithm>
 #include <functional>
@@ -51,11 +51,11 @@ double ParallaxOf(std::size_t count,
 std::vector<RayMatch> RayMatchesOf(const RectifiedCamera& camera,
                                    const Features& a,
                                    const Features& b,
-                                   std::span<const PointMatch> matches) {
+                                   std::span<const FeatureMatch> matches) {
   const double focal = 0.5 * (camera.fx + camera.fy);
   std::vector<RayMatch> rays;
   rays.reserve(matches.size());
-  for (const PointMatch& match : matches) {
+  for (const FeatureMatch& match : matches) {
     const PointFeature& in_a = a.points[Index(match.a)];
     const PointFeature& in_b = b.points[Index(match.b)];
     rays.push_back({camera.Unproject(in_a.px).head<2>(),

@@ -33,7 +33,7 @@ double ParallaxOf(std::size_t count,
 std::vector<RayMatch> RayMatchesOf(const RectifiedCamera& camera,
                                    const Features& a,
                                    const Features& b,
-                                   std::span<const PointMatch> matches);
+                                   std::span<const FeatureMatch> matches);
 
 // Calls TriangulateMap and AdjustMap; returns nullopt if fewer than `min_points` points remain.
 std::optional<InitialMap> TriangulateAndAdjustMap(const RectifiedCamera& camera,

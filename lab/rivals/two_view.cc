@@ -3,8 +3,8 @@
 #include "lab/rivals/two_view.h"
 
 #include "lab/rivals/start_steps.h"
-#include "plumbline/base/chi2.h"
-#include "plumbline/base/index.h"
+#include "plumbline/base/ids.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/base/units.h"
 #include "plumbline/solvers/epipolar_cost.h"
 #include "plumbline/solvers/essential.h"
@@ -255,7 +255,7 @@ InitializationResult TwoViewInitializer::Add(const InitializationFrame& frame) {
     points.push_back({{0, matches.points[i].a}, {1, matches.points[i].b}});
   }
   std::vector<FeatureTrack> lines;
-  for (const LineMatch& match : matches.lines) lines.push_back({{0, match.a}, {1, match.b}});
+  for (const FeatureMatch& match : matches.lines) lines.push_back({{0, match.a}, {1, match.b}});
   result.map = TriangulateAndAdjustMap(
       camera_, {{*reference_, {}}, {frame, solution.b_from_a}}, points, lines, kMinPoints);
   if (!result.map) result.wait = kInaccurate;

@@ -3,7 +3,7 @@
 #include "lab/starts/start_errors.h"
 
 #include "plumbline/base/elementary.h"
-#include "plumbline/base/median.h"
+#include "plumbline/base/statistics.h"
 
 #include <algorithm>
 #include <cmath>

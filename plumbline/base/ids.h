@@ -9,6 +9,9 @@
 
 namespace plumbline {
 
+// Converts a number >= 0 to the index type of containers.
+constexpr std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+
 // A number that names one object of one kind. Ids of different kinds cannot be mixed. They are
 // ordered, so that containers keyed by id iterate in the same order in every run.
 template <class Tag>

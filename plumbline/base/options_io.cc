@@ -4,7 +4,6 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
-#include "plumbline/base/nearest_name.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/base/yaml_document.h"
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -21,5 +23,19 @@ std::string Printable(std::string_view text, std::size_t longest = kLongestWord)
 
 // Returns the printable text in single quotes, for "found 'text'".
 std::string InQuotes(std::string_view text);
+
+// Returns the text escaped for the body of an HTML page or a quoted attribute.
+std::string EscapeHtml(std::string_view text);
+
+// Returns the least number of steps that turn `a` into `b`. A step inserts, deletes or replaces a
+// character, or swaps two neighbours (optimal string alignment: no part is edited twice).
+std::size_t EditDistance(std::string_view a, std::string_view b);
+
+// Returns the candidate of least edit distance to `name` (ties: the first); nullopt if all are too
+// different. For dotted names a candidate whose last part is near also counts, so that `seed` finds
+// `slam.seed`; if there is none, one of the nearest group does: `trackng.foo` finds a name that
+// begins with `tracking.`.
+std::optional<std::string> NearestName(std::string_view name,
+                                       std::span<const std::string> candidates);
 
 }  // namespace plumbline

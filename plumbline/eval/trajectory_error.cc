@@ -3,8 +3,8 @@
 #include "plumbline/eval/trajectory_error.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/geometry/rotation_fit.h"
-#include "plumbline/geometry/unit_rotation.h"
+#include "plumbline/geometry/alignment.h"
+#include "plumbline/geometry/se3.h"
 
 #include <algorithm>
 #include <cmath>

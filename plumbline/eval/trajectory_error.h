@@ -122,7 +122,7 @@ struct TrajectoryError {
 //
 //   reference, estimate  of the same camera, stamps ascending, metres
 //   fails    nullopt if no pose of the estimate has a reference; throws InputError for an invalid
-//            rotation (unit_rotation.h)
+//            rotation (UnitRotation)
 //   cost     O(n log n)
 std::optional<TrajectoryError> CompareTrajectories(const Trajectory& reference,
                                                    const Trajectory& estimate,
@@ -153,12 +153,12 @@ Similarity3 AlignPoses(std::span<const EvaluatedPose> poses);
 std::optional<double> ScaleDrift(std::span<const EvaluatedPose> poses);
 
 // Returns the trajectory of the camera, given that of the body that carries it: world_from_body *
-// body_from_camera. Throws InputError for an invalid rotation (unit_rotation.h).
+// body_from_camera. Throws InputError for an invalid rotation (UnitRotation).
 Trajectory OfCamera(const Trajectory& body, const Rigid3& body_from_camera);
 
 // Returns the trajectory in the world mirrored in y, seen by a camera mirrored in y, for ground
 // truth with a negative focal length fy (ICL-NUIM). It is M R M and M t with M = diag(1, -1, 1).
-// Throws InputError for an invalid rotation (unit_rotation.h).
+// Throws InputError for an invalid rotation (UnitRotation).
 Trajectory MirroredY(const Trajectory& trajectory);
 
 }  // namespace plumbline

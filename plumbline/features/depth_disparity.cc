@@ -244,19 +244,20 @@ std::vector<std::optional<Disparity>> PointDisparities(const RectifiedCamera& ca
   return result;
 }
 
-std::vector<std::optional<RightLine>> VirtualRightLines(const RectifiedCamera& camera,
-                                                        const DepthImage& depth,
-                                                        const std::vector<LineFeature>& lines,
-                                                        const DepthDisparityOptions& options) {
+std::vector<std::optional<MeasuredSegment>> VirtualRightLines(
+    const RectifiedCamera& camera,
+    const DepthImage& depth,
+    const std::vector<LineFeature>& lines,
+    const DepthDisparityOptions& options) {
   PLUMBLINE_CHECK(camera.baseline > 0, "depth needs a virtual baseline");
-  std::vector<std::optional<RightLine>> result;
+  std::vector<std::optional<MeasuredSegment>> result;
   result.reserve(lines.size());
   for (const LineFeature& line : lines) {
     result.emplace_back();
     if (!(line.segment.Length() > 0)) continue;
     const std::optional<DisparityFit> fit = NearestTrack(camera, depth, line.segment, options);
     if (!fit) continue;
-    RightLine right;
+    MeasuredSegment right;
     right.segment.start = line.segment.start - Eigen::Vector2d(fit->start, 0);
     right.segment.end = line.segment.end - Eigen::Vector2d(fit->end, 0);
     // Only the component of the disparity noise across the line counts.

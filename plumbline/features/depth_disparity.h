@@ -35,10 +35,10 @@ std::vector<std::optional<Disparity>> PointDisparities(const RectifiedCamera& ca
 // is used, to which a line on an occluding edge belongs. 1/z is linear along the image of a
 // straight 3D line, so that disparity is fitted as a linear function of arc length: first the best
 // of all sample pairs, then least squares over its inliers. nullopt if too few samples agree.
-std::vector<std::optional<RightLine>> VirtualRightLines(const RectifiedCamera& camera,
-                                                        const DepthImage& depth,
-                                                        const std::vector<LineFeature>& lines,
-                                                        const DepthDisparityOptions& options);
+std::vector<std::optional<MeasuredSegment>> VirtualRightLines(const RectifiedCamera& camera,
+                                                              const DepthImage& depth,
+                                                              const std::vector<LineFeature>& lines,
+                                                              const DepthDisparityOptions& options);
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, DepthDisparityOptions& o) {

@@ -85,10 +85,10 @@ std::vector<std::optional<Disparity>> MatchRightPoints(const RectifiedCamera& ca
                            helper);
 }
 
-std::vector<std::optional<RightLine>> MatchRightLines(const RectifiedCamera& camera,
-                                                      const FeatureInput& input,
-                                                      const FeatureOptions& options,
-                                                      const std::vector<LineFeature>& lines) {
+std::vector<std::optional<MeasuredSegment>> MatchRightLines(const RectifiedCamera& camera,
+                                                            const FeatureInput& input,
+                                                            const FeatureOptions& options,
+                                                            const std::vector<LineFeature>& lines) {
   const ValidRegion whole(camera.width, camera.height);
   SingleView right;
   ExtractLines(*input.right, RegionOf(input.right_valid, whole), options, right);
@@ -135,10 +135,10 @@ Features ExtractFeatures(const RectifiedCamera& camera,
   return features;
 }
 
-std::vector<std::optional<RightLine>> FindRightLines(const RectifiedCamera& camera,
-                                                     const FeatureInput& input,
-                                                     const FeatureOptions& options,
-                                                     const std::vector<LineFeature>& lines) {
+std::vector<std::optional<MeasuredSegment>> FindRightLines(const RectifiedCamera& camera,
+                                                           const FeatureInput& input,
+                                                           const FeatureOptions& options,
+                                                           const std::vector<LineFeature>& lines) {
   CheckInput(camera, input);
   if (lines.empty()) return {};
   Features found;

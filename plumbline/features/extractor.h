@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/base/helper_thread.h"
 #include "plumbline/base/options.h"
+#include "plumbline/base/parallel.h"
 #include "plumbline/features/depth_disparity.h"
 #include "plumbline/features/line_detection.h"
 #include "plumbline/features/match_lines.h"
@@ -65,10 +65,10 @@ Features ExtractFeatures(const RectifiedCamera& camera,
 // image or predicted from the depth image (see Features::line_right), rounded to single precision;
 // one entry for each line. Only new landmarks need them, and most frames make none. Costs as much
 // as the lines of the left image.
-std::vector<std::optional<RightLine>> FindRightLines(const RectifiedCamera& camera,
-                                                     const FeatureInput& input,
-                                                     const FeatureOptions& options,
-                                                     const std::vector<LineFeature>& lines);
+std::vector<std::optional<MeasuredSegment>> FindRightLines(const RectifiedCamera& camera,
+                                                           const FeatureInput& input,
+                                                           const FeatureOptions& options,
+                                                           const std::vector<LineFeature>& lines);
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, FeatureOptions& o) {

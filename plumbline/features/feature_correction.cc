@@ -4,9 +4,68 @@
 
 #include "plumbline/features/single_precision.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace plumbline {
+
+LensCorrection::LensCorrection(const RectifiedCamera& camera, double border_px)
+    : centre_(camera.cx, camera.cy), inverse_unit_(2.0 / camera.width), border_px_(border_px) {}
+
+Eigen::Vector2d LensCorrection::ShiftAt(const Eigen::Vector2d& px) const {
+  const Eigen::Vector2d d = FromCentre(px);
+  return border_px_ * d.squaredNorm() * d;
+}
+
+double LensCorrection::ScaleAt(const Eigen::Vector2d& px) const {
+  const double part = border_px_ * inverse_unit_ * FromCentre(px).squaredNorm();
+  // The first factor is the scale along the circle around the principal point, the second along the
+  // radius. A large correction folds the corners of a narrow image over; there the scale has no
+  // meaning, and must only be a number.
+  constexpr double kLeast = 0.01;
+  return std::sqrt(std::max((1 - part) * (1 - 3 * part), kLeast));
+}
+
+bool LensCorrection::IsPlausible() const {
+  return centre_.allFinite() && std::isfinite(inverse_unit_) && std::isfinite(border_px_) &&
+         std::abs(border_px_) * inverse_unit_ <= 2 * kLargest;
+}
+
+namespace {
+
+Eigen::Vector2d Centre(const RectifiedCamera& camera) { return {camera.cx, camera.cy}; }
+
+double InverseUnit(const RectifiedCamera& camera) { return 2.0 / camera.width; }
+
+Vector6d TermsAt(const Eigen::Vector2d& px, const Eigen::Vector2d& centre, double inverse_unit) {
+  const Eigen::Vector2d place = (px - centre) * inverse_unit;
+  const double x = place.x();
+  const double y = place.y();
+  Vector6d terms;
+  terms << 1, x, y, x * x, x * y, y * y;
+  return terms;
+}
+
+}  // namespace
+
+StereoCorrection::StereoCorrection(const RectifiedCamera& camera, const Vector6d& coefficients)
+    : centre_(Centre(camera)), inverse_unit_(InverseUnit(camera)), coefficients_(coefficients) {}
+
+Vector6d StereoCorrection::Terms(const RectifiedCamera& camera, const Eigen::Vector2d& px) {
+  return TermsAt(px, Centre(camera), InverseUnit(camera));
+}
+
+double StereoCorrection::At(const Eigen::Vector2d& px) const {
+  return coefficients_.dot(TermsAt(px, centre_, inverse_unit_));
+}
+
+bool StereoCorrection::IsFinite() const {
+  bool finite = true;
+  VisitNumbers(*this, [&](double number) { finite = finite && std::isfinite(number); });
+  return finite;
+}
+
 namespace {
 
 // Most rounds in which a measured number is recovered. The correction changes with the place by far

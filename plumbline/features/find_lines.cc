@@ -4,7 +4,7 @@
 
 #include "plumbline/features/lbd.h"
 #include "plumbline/features/valid_region.h"
-#include "plumbline/image/gradient.h"
+#include "plumbline/image/filters.h"
 
 namespace plumbline {
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "plumbline/features/line_detection.h"
-#include "plumbline/features/raw_segments.h"
 #include "plumbline/features/types.h"
 #include "plumbline/image/image.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/features/image_patch.h"
 
-#include "plumbline/geometry/eigenpairs.h"
+#include "plumbline/geometry/symmetric_matrix.h"
 
 #include <cmath>
 #include <cstdint>

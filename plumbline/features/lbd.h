@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/features/types.h"
-#include "plumbline/image/gradient.h"
+#include "plumbline/image/filters.h"
 
 #include <array>
 #include <vector>

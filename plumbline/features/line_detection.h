@@ -3,15 +3,42 @@
 #pragma once
 
 #include "plumbline/base/options.h"
-#include "plumbline/features/raw_segments.h"
 #include "plumbline/features/types.h"
 #include "plumbline/features/valid_region.h"
-#include "plumbline/image/gradient.h"
+#include "plumbline/geometry/segment.h"
+#include "plumbline/image/filters.h"
 
+#include <array>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace plumbline {
+
+enum class LineDetector { kDrawing, kLsd, kEdlines };
+
+constexpr auto EnumNames(std::type_identity<LineDetector>) {
+  return std::array{std::pair{LineDetector::kDrawing, "drawing"},
+                    std::pair{LineDetector::kLsd, "lsd"},
+                    std::pair{LineDetector::kEdlines, "edlines"}};
+}
+
+struct RawSegmentOptions {
+  LineDetector detector = LineDetector::kDrawing;
+  // Size of the image for detection, relative to `image`.
+  double scale = 1;
+  double min_length = 15;  // least length in pixels of `image`
+  // Least mean gradient across the line, grey levels per pixel.
+  double min_contrast = 3;
+};
+
+// Detects straight edges of an image, unrefined, in pixels of `image` and in any direction: by
+// drawing (segment_drawing.h), LSD (Grompone von Gioi et al., PAMI 2010) or EDLines (Akinlar and
+// Topal 2011), in the image itself or in a smaller one. `gradient` is that of the image after a
+// blur of about 1 px.
+std::vector<Segment2> FindRawSegments(const GrayImage& image,
+                                      const GradientImage& gradient,
+                                      const RawSegmentOptions& options);
 
 // Blur before the gradient for detecting, refining and describing lines [px].
 inline constexpr double kLineBlurPx = 1;
@@ -33,7 +60,7 @@ struct LineDetectionOptions {
 // Detects straight edges of an image, directed with the bright side on the left (see LineFeature),
 // without descriptors: at most `count`, the best by length and contrast, spread over the image.
 //
-// Segments come from the detector (raw_segments.h). Collinear pieces of the same contrast sign are
+// Segments come from the detector (FindRawSegments). Collinear pieces of the same contrast sign are
 // joined over small gaps. Each segment is refitted robustly to the sub-pixel maxima of the
 // directional gradient across it. sigma_px is the deviation of an end point in that fit, but at
 // least kLeastLineSigmaPx. Parts closer than 3 px to invalid pixels are cut off. `gradient` is that

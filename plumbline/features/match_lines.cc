@@ -77,8 +77,8 @@ class DistanceTable {
     }
   }
 
-  std::vector<LineMatch> Match(const std::vector<LineFeature>& b, const Pairing& pairing) const {
-    std::vector<LineMatch> matches;
+  std::vector<FeatureMatch> Match(const std::vector<LineFeature>& b, const Pairing& pairing) const {
+    std::vector<FeatureMatch> matches;
     std::vector<int> owner(columns_, -1);
     for (std::size_t row = 0; row < rows_; ++row) {
       const int column = BestColumn(row);
@@ -88,14 +88,14 @@ class DistanceTable {
       if (distance > pairing.max_distance || Ambiguous(row, c, b, pairing.ratio)) continue;
       if (pairing.mutual && best_row_[c] != static_cast<int>(row)) continue;
       if (owner[c] >= 0) {  // possible only without the mutual test
-        LineMatch& earlier = matches[static_cast<std::size_t>(owner[c])];
+        FeatureMatch& earlier = matches[static_cast<std::size_t>(owner[c])];
         if (distance >= earlier.distance) continue;
         earlier.a = -1;
       }
       owner[c] = static_cast<int>(matches.size());
       matches.push_back({static_cast<int>(row), column, distance});
     }
-    std::erase_if(matches, [](const LineMatch& m) { return m.a < 0; });
+    std::erase_if(matches, [](const FeatureMatch& m) { return m.a < 0; });
     return matches;
   }
 
@@ -218,9 +218,9 @@ bool LinesCompatible(const Segment2& a, const Segment2& b, const LineMatchOption
   return PlacesCompatible(Place(a), Place(b), MinCosine(options), options);
 }
 
-std::vector<LineMatch> MatchLines(const std::vector<LineFeature>& a,
-                                  const std::vector<LineFeature>& b,
-                                  const LineMatchOptions& options) {
+std::vector<FeatureMatch> MatchLines(const std::vector<LineFeature>& a,
+                                     const std::vector<LineFeature>& b,
+                                     const LineMatchOptions& options) {
   const double min_cosine = MinCosine(options);
   std::vector<Place> places;
   places.reserve(b.size());
@@ -236,10 +236,10 @@ std::vector<LineMatch> MatchLines(const std::vector<LineFeature>& a,
   return table.Match(b, {options.max_distance, options.ratio, options.mutual});
 }
 
-std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& camera,
-                                                       const std::vector<LineFeature>& left,
-                                                       const std::vector<LineFeature>& right,
-                                                       const StereoLineOptions& options) {
+std::vector<std::optional<MeasuredSegment>> MatchStereoLines(const RectifiedCamera& camera,
+                                                             const std::vector<LineFeature>& left,
+                                                             const std::vector<LineFeature>& right,
+                                                             const StereoLineOptions& options) {
   PLUMBLINE_CHECK(camera.baseline > 0, "stereo needs a baseline");
   const double max_disparity = camera.DisparityFromDepth(options.min_depth_m);
   const double min_cosine = math::Cos(kMaxAngleDeg * kDegree);
@@ -259,18 +259,19 @@ std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& ca
     }
   }
   const double calibration_sigma_px = options.calibration_sigma * camera.width;
-  std::vector<std::optional<RightLine>> result(left.size());
-  for (const LineMatch& m : table.Match(right, {kMaxDistance, kRatio, true})) {
+  std::vector<std::optional<MeasuredSegment>> result(left.size());
+  for (const FeatureMatch& m : table.Match(right, {kMaxDistance, kRatio, true})) {
     const LineFeature& r = right[static_cast<std::size_t>(m.b)];
     // An error of the calibration shifts the line along the rows, and by this much across itself.
     const double shift = calibration_sigma_px * std::abs(r.segment.Direction().y());
-    result[static_cast<std::size_t>(m.a)] = RightLine{r.segment, math::Hypot(r.sigma_px, shift)};
+    result[static_cast<std::size_t>(m.a)] =
+        MeasuredSegment{r.segment, math::Hypot(r.sigma_px, shift)};
   }
   return result;
 }
 
 std::optional<LineEndDisparity> LineEndDisparities(const LineFeature& left,
-                                                   const RightLine& right,
+                                                   const MeasuredSegment& right,
                                                    double flat_angle_deg) {
   const double left_sine = RowSine(left.segment);
   const double right_sine = RowSine(right.segment);

@@ -10,13 +10,6 @@
 
 namespace plumbline {
 
-// A pair of matched lines of two sets.
-struct LineMatch {
-  int a = -1;          // index into the first set
-  int b = -1;          // index into the second set
-  int distance = 256;  // Hamming distance of the descriptors
-};
-
 // Conditions on two lines to be matched.
 struct LineMatchOptions {
   int max_distance = 80;  // largest Hamming distance, of 256 bits
@@ -40,9 +33,9 @@ bool LinesCompatible(const Segment2& a, const Segment2& b, const LineMatchOption
 // Returns pairs of lines with similar descriptors and compatible positions in two images, at most
 // one pair for each line. Ties go to the lower index; the result is ordered by `a`. Cost: O(|a|
 // |b|).
-std::vector<LineMatch> MatchLines(const std::vector<LineFeature>& a,
-                                  const std::vector<LineFeature>& b,
-                                  const LineMatchOptions& options);
+std::vector<FeatureMatch> MatchLines(const std::vector<LineFeature>& a,
+                                     const std::vector<LineFeature>& b,
+                                     const LineMatchOptions& options);
 
 // Conditions on two lines of a rectified pair to be matched.
 struct StereoLineOptions {
@@ -61,11 +54,12 @@ inline constexpr double kFlatAngleDeg = 5;
 // Both lines have the same direction (bright side) and overlap in rows, and the disparities at both
 // ends of the common rows lie in [0, fx * baseline / min_depth_m]. The nearest descriptor wins, in
 // both directions. A line flatter than kFlatAngleDeg is matched by its position across the rows
-// alone: its RightLine constrains the line's plane, but LineEndDisparities gives nullopt for it.
-std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& camera,
-                                                       const std::vector<LineFeature>& left,
-                                                       const std::vector<LineFeature>& right,
-                                                       const StereoLineOptions& options);
+// alone: its MeasuredSegment constrains the line's plane, but LineEndDisparities gives nullopt for
+// it.
+std::vector<std::optional<MeasuredSegment>> MatchStereoLines(const RectifiedCamera& camera,
+                                                             const std::vector<LineFeature>& left,
+                                                             const std::vector<LineFeature>& right,
+                                                             const StereoLineOptions& options);
 
 // The disparities of the two end points of a left line.
 struct LineEndDisparity {
@@ -77,7 +71,7 @@ struct LineEndDisparity {
 // sine of the angle between line and row. Returns nullopt if that angle is below `flat_angle_deg`
 // or a disparity is not positive.
 std::optional<LineEndDisparity> LineEndDisparities(const LineFeature& left,
-                                                   const RightLine& right,
+                                                   const MeasuredSegment& right,
                                                    double flat_angle_deg = kFlatAngleDeg);
 
 template <class Visitor>

@@ -141,12 +141,12 @@ class CandidateSearch {
 
 }  // namespace
 
-std::vector<PointMatch> MatchPoints(const std::vector<PointFeature>& a,
-                                    const std::vector<PointFeature>& b,
-                                    const PointMatchOptions& options) {
+std::vector<FeatureMatch> MatchPoints(const std::vector<PointFeature>& a,
+                                      const std::vector<PointFeature>& b,
+                                      const PointMatchOptions& options) {
   CandidateSearch in_b(b, options.radius_px);
   CandidateSearch in_a(a, options.radius_px);
-  std::vector<PointMatch> matches;
+  std::vector<FeatureMatch> matches;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Best best = in_b.Find(a[i], options);
     if (best.index < 0 || best.distance > options.max_distance) continue;

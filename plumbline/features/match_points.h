@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/base/helper_thread.h"
 #include "plumbline/base/options.h"
+#include "plumbline/base/parallel.h"
 #include "plumbline/features/types.h"
 #include "plumbline/features/valid_region.h"
 #include "plumbline/image/image.h"
@@ -15,12 +15,6 @@
 #include <vector>
 
 namespace plumbline {
-
-struct PointMatch {
-  int a = -1;  // index into the first set
-  int b = -1;  // index into the second set
-  int distance = 256;
-};
 
 struct PointMatchOptions {
   int max_distance = 64;  // largest Hamming distance, of 256 bits
@@ -34,9 +28,9 @@ struct PointMatchOptions {
 
 // Returns pairs of points with similar descriptors in two images, each the best match of the other.
 // Ties go to the lower index; the result is ordered by `a`. Cost: O(|a| |b|) without a window.
-std::vector<PointMatch> MatchPoints(const std::vector<PointFeature>& a,
-                                    const std::vector<PointFeature>& b,
-                                    const PointMatchOptions& options);
+std::vector<FeatureMatch> MatchPoints(const std::vector<PointFeature>& a,
+                                      const std::vector<PointFeature>& b,
+                                      const PointMatchOptions& options);
 
 struct StereoPointOptions {
   double min_depth_m = 0.25;  // least depth, which determines the largest disparity

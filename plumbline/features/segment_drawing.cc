@@ -391,17 +391,18 @@ Segment2 Directed(const Walk& walk, bool steep) {
 }  // namespace
 
 std::vector<Segment2> DrawSegments(const GradientImage& gradient,
-                                   const SegmentDrawingLimits& limits) {
+                                   double min_length,
+                                   double min_gradient) {
   std::vector<Segment2> segments;
   if (std::min(gradient.width(), gradient.height()) <= 2 * kBorder) return segments;
-  const int min_slope = std::max(1, static_cast<int>(limits.min_gradient * kSobelGain));
+  const int min_slope = std::max(1, static_cast<int>(min_gradient * kSobelGain));
   const std::array<AxisView, 2> views{FlatEdges(gradient), SteepEdges(gradient)};
   Image<std::uint8_t> marks(gradient.width(), gradient.height(), kFree);
   std::vector<std::ptrdiff_t> path;
   // With this step even the shortest segment, at 45 degrees, has two anchors.
   constexpr double kMaxStep = 6;
   const int step =
-      static_cast<int>(std::clamp(limits.min_length / (2 * std::numbers::sqrt2), 1.0, kMaxStep));
+      static_cast<int>(std::clamp(min_length / (2 * std::numbers::sqrt2), 1.0, kMaxStep));
   for (const Anchor& anchor : StrongestFirst(FindAnchors(gradient, min_slope, step))) {
     if (marks.at(anchor.x, anchor.y) != kFree) continue;
     const AxisView& view = views[anchor.steep ? 1 : 0];
@@ -410,7 +411,7 @@ std::vector<Segment2> DrawSegments(const GradientImage& gradient,
     if (!Promising(view, major, minor)) continue;
     path.clear();
     Walk walk(view, marks, min_slope);
-    const bool good = walk.Follow(major, minor, &path) && walk.Length() >= limits.min_length &&
+    const bool good = walk.Follow(major, minor, &path) && walk.Length() >= min_length &&
                       walk.Scatter() <= kMaxScatter && walk.Density() >= kMinDensity;
     for (const std::ptrdiff_t i : path) {
       std::uint8_t* mark = marks.data() + i;

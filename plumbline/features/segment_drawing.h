@@ -3,17 +3,11 @@
 #pragma once
 
 #include "plumbline/geometry/segment.h"
-#include "plumbline/image/gradient.h"
+#include "plumbline/image/filters.h"
 
 #include <vector>
 
 namespace plumbline {
-
-struct SegmentDrawingLimits {
-  double min_length = 15;  // in pixels of this image
-  // Least gradient across the line, at each of its pixels; grey levels per pixel.
-  double min_gradient = 2;
-};
 
 // Finds straight edges, directed with the bright side on the left, by drawing them pixel by pixel.
 //
@@ -28,7 +22,11 @@ struct SegmentDrawingLimits {
 // the predicted line instead of from pixel to pixel is ours: docs/methods/line-front-end.md.
 //
 // `gradient` should be that of a smoothed image (sigma about 1). Cost: about 1 ms for 752x480.
+//
+//   min_length    in pixels of this image
+//   min_gradient  least gradient across the line, at each of its pixels; grey levels per pixel
 std::vector<Segment2> DrawSegments(const GradientImage& gradient,
-                                   const SegmentDrawingLimits& limits);
+                                   double min_length,
+                                   double min_gradient);
 
 }  // namespace plumbline

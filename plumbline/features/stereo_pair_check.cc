@@ -113,7 +113,7 @@ std::vector<StereoPairMatch> StereoPairCheck::MatchWith(const GrayImage& right) 
   options.max_octave_step = 1;
   const std::vector<PointFeature> points = PairPoints(right);
   std::vector<StereoPairMatch> matches;
-  for (const PointMatch& match : MatchPoints(left_, points, options)) {
+  for (const FeatureMatch& match : MatchPoints(left_, points, options)) {
     const auto left = static_cast<std::size_t>(match.a);
     matches.push_back({left, left_[left].px, points[static_cast<std::size_t>(match.b)].px});
   }

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/features/stereo_pair_fault.h"
-
-#include "plumbline/base/median.h"
-#include "plumbline/geometry/symmetric_system.h"
+#include "plumbline/base/statistics.h"
+#include "plumbline/features/stereo_pair_check.h"
+#include "plumbline/geometry/symmetric_matrix.h"
 
 #include <algorithm>
 #include <array>

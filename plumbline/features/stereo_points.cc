@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
-#include "plumbline/base/median.h"
 #include "plumbline/base/parallel.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/features/match_points.h"
 #include "plumbline/features/row_search.h"
 

@@ -2,14 +2,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/alignment.h"
 
-#include "plumbline/geometry/eigenpairs.h"
-#include "plumbline/geometry/rotation_fit.h"
+#include "plumbline/geometry/symmetric_matrix.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
 namespace plumbline {
+
+RotationFit FitRotation(const Eigen::Matrix3d& correlation) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d sign(1, 1, 1);
+  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign.z() = -1;
+  return {svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose(),
+          svd.singularValues().cwiseProduct(sign)};
+}
+
 namespace {
 
 // Ratio of standard deviations below which a set of points has no second direction.

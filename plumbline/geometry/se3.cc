@@ -3,12 +3,14 @@
 #include "plumbline/geometry/se3.h"
 
 #include "plumbline/base/elementary.h"
-#include "plumbline/geometry/basis_across.h"
+#include "plumbline/base/error.h"
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace plumbline {
+
 namespace {
 
 // Coefficients of I + a [w]x + b [w]x^2 forms, by series if the closed form suffers from
@@ -116,6 +118,20 @@ Rigid3 Interpolate(const Rigid3& a, const Rigid3& b, double s) {
 
 double AngularDistance(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   return LogSo3(a.conjugate() * b).norm();
+}
+
+bool IsRotation(const Eigen::Quaterniond& quaternion) {
+  return std::abs(quaternion.norm() - 1) <= kMostNormError;
+}
+
+Eigen::Quaterniond UnitRotation(const Eigen::Quaterniond& quaternion, std::string_view what) {
+  constexpr double kRounding = 1e-9;
+  const double norm = quaternion.norm();
+  if (std::abs(norm - 1) <= kRounding) return quaternion;
+  if (IsRotation(quaternion)) return quaternion.normalized();
+  std::ostringstream message;
+  message << what << ": expected a quaternion of norm 1, found one of norm " << norm;
+  throw InputError(message.str());
 }
 
 }  // namespace plumbline

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string_view>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -81,5 +83,28 @@ Rigid3 Interpolate(const Rigid3& a, const Rigid3& b, double s);
 
 // Angle of the rotation between two orientations, radians in [0, pi].
 double AngularDistance(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b);
+
+// Rule for rotations given by callers and files: a quaternion is a rotation if its norm is 1 to
+// within kMostNormError. It is then normalized, unless its norm is 1 up to rounding (1e-9): then it
+// stays the same to the last bit. Any other quaternion is refused.
+constexpr double kMostNormError = 0.01;
+
+// Returns true if the norm is 1 to within kMostNormError; false for NaN.
+bool IsRotation(const Eigen::Quaterniond& quaternion);
+
+// Returns the rotation by the rule above. Throws InputError "WHAT: expected a quaternion of norm 1,
+// found one of norm 2".
+Eigen::Quaterniond UnitRotation(const Eigen::Quaterniond& quaternion, std::string_view what);
+
+// Returns two orthonormal directions, as columns, perpendicular to a unit vector t. A change of the
+// direction t is written in them: t + basis d, normalized.
+inline Eigen::Matrix<double, 3, 2> BasisAcross(const Eigen::Vector3d& direction) {
+  Eigen::Index smallest = 0;
+  direction.cwiseAbs().minCoeff(&smallest);
+  Eigen::Matrix<double, 3, 2> basis;
+  basis.col(0) = direction.cross(Eigen::Vector3d::Unit(smallest)).normalized();
+  basis.col(1) = direction.cross(basis.col(0)).normalized();
+  return basis;
+}
 
 }  // namespace plumbline

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/trajectory.h"
 
-#include "plumbline/geometry/unit_rotation.h"
+#include "plumbline/geometry/se3.h"
 
 #include <algorithm>
 #include <cstddef>

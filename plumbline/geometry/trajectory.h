@@ -23,7 +23,7 @@ using Trajectory = std::vector<StampedPose>;
 // Returns the pose at a stamp: linear in position, slerp in orientation between the two neighbours.
 // Returns nullopt outside the trajectory's time and if the neighbours are more than max_gap_ns
 // apart; a stamp of the trajectory always has a pose. Throws InputError for an invalid rotation
-// (unit_rotation.h). O(log n).
+// (UnitRotation). O(log n).
 std::optional<Rigid3> InterpolateAt(const Trajectory& trajectory,
                                     std::int64_t stamp_ns,
                                     std::int64_t max_gap_ns);
@@ -39,7 +39,7 @@ std::optional<std::size_t> NearestIndex(const Trajectory& trajectory,
 Trajectory TimeReversed(Trajectory trajectory, std::int64_t mirror_ns);
 
 // Returns the trajectory with its rotations checked and normalized by UnitRotation
-// (unit_rotation.h), whose error names the pose: "WHAT: pose 3 (from 0): expected ...".
+// (UnitRotation), whose error names the pose: "WHAT: pose 3 (from 0): expected ...".
 Trajectory WithUnitRotations(Trajectory trajectory, std::string_view what);
 
 // Returns the sum of the distances between successive positions, in metres.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/geometry/orientation.h"
+#include "plumbline/image/resample.h"
 
 #include <cstdint>
 #include <memory>

@@ -5,9 +5,95 @@
 #include "plumbline/base/error.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace plumbline {
+
+Orientation OrientationOfExif(int number) {
+  constexpr std::array<Orientation, 8> kOrientations = {{{false, false, false},
+                                                         {false, true, false},
+                                                         {false, true, true},
+                                                         {false, false, true},
+                                                         {true, false, false},
+                                                         {true, true, false},
+                                                         {true, true, true},
+                                                         {true, false, true}}};
+  if (number < 1 || number > 8) return {};
+  return kOrientations[static_cast<std::size_t>(number) - 1];
+}
+
+Orientation ClockwiseTurn(int degrees) {
+  PLUMBLINE_CHECK(degrees >= 0 && degrees % 90 == 0, "a turn by quarters");
+  constexpr std::array<int, 4> kExif = {1, 6, 3, 8};
+  return OrientationOfExif(kExif[static_cast<std::size_t>(degrees / 90 % 4)]);
+}
+
+Orientation Inverse(const Orientation& orientation) {
+  Orientation inverse = orientation;
+  if (orientation.transpose) std::swap(inverse.flip_x, inverse.flip_y);
+  return inverse;
+}
+
+std::string Describe(const Orientation& orientation) {
+  if (orientation.IsIdentity()) return "as stored";
+  Orientation turn = orientation;
+  if (turn.Mirrors()) turn.flip_x = !turn.flip_x;  // mirrored left to right after the turn
+  int degrees = 0;
+  while (ClockwiseTurn(degrees) != turn) degrees += 90;
+  std::string text;
+  if (degrees > 0) text = "turned by " + std::to_string(degrees) + " degrees clockwise";
+  if (orientation.Mirrors()) text += text.empty() ? "mirrored" : " and mirrored";
+  return text;
+}
+
+Rigid3 TurnedFromStored(const Orientation& orientation) {
+  PLUMBLINE_CHECK(!orientation.Mirrors(), "a rotation of images");
+  Eigen::Matrix3d turned_from_stored = Eigen::Matrix3d::Zero();
+  const double x = orientation.flip_x ? -1 : 1;
+  const double y = orientation.flip_y ? -1 : 1;
+  turned_from_stored(0, orientation.transpose ? 1 : 0) = x;
+  turned_from_stored(1, orientation.transpose ? 0 : 1) = y;
+  turned_from_stored(2, 2) = 1;
+  return {Eigen::Quaterniond(turned_from_stored).normalized(), Eigen::Vector3d::Zero()};
+}
+
+Camera Turned(const Camera& camera, const Orientation& orientation) {
+  CameraIntrinsics in = camera.intrinsics();
+  // Tangential distortion: p1 bends along y, p2 along x. All else depends on the radius alone.
+  const bool tangential = in.model == DistortionModel::kRadTan;
+  double& p1 = in.distortion[2];
+  double& p2 = in.distortion[3];
+  if (orientation.transpose) {
+    std::swap(in.width, in.height);
+    std::swap(in.fx, in.fy);
+    std::swap(in.cx, in.cy);
+    if (tangential) std::swap(p1, p2);
+  }
+  if (orientation.flip_x) {
+    in.cx = in.width - 1 - in.cx;
+    if (tangential) p2 = -p2;
+  }
+  if (orientation.flip_y) {
+    in.cy = in.height - 1 - in.cy;
+    if (tangential) p1 = -p1;
+  }
+  return Camera(in);
+}
+
+Calibration Turned(Calibration calibration, const Orientation& orientation) {
+  if (orientation.IsIdentity()) return calibration;
+  PLUMBLINE_CHECK(!calibration.right.has_value(), "one camera to turn");
+  calibration.left = Turned(calibration.left, orientation);
+  if (calibration.body_from_left && !orientation.Mirrors()) {
+    calibration.body_from_left =
+        *calibration.body_from_left * Inverse(TurnedFromStored(orientation));
+  }
+  return calibration;
+}
+
 namespace {
 
 // Sums of a row over the columns of the target. A pixel of the row is `target` units wide and one

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/candidate_models.h"
 
-#include "plumbline/base/chi2.h"
 #include "plumbline/base/elementary.h"
-#include "plumbline/base/median.h"
-#include "plumbline/geometry/basis_across.h"
-#include "plumbline/geometry/eigenpairs.h"
+#include "plumbline/base/statistics.h"
+#include "plumbline/geometry/se3.h"
+#include "plumbline/geometry/symmetric_matrix.h"
 #include "plumbline/initialization/reconstruction_covariance.h"
 
 #include <algorithm>

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/initial_map.h"
 
-#include "plumbline/base/chi2.h"
-#include "plumbline/base/index.h"
-#include "plumbline/base/median.h"
+#include "plumbline/base/ids.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/base/units.h"
-#include "plumbline/geometry/line_triangulation.h"
 #include "plumbline/geometry/triangulation.h"
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/matching/measurements.h"
@@ -42,14 +40,14 @@ std::optional<InitialPoint> BuildPoint(const RectifiedCamera& camera,
     measured.push_back(
         {view.cam_from_world, o.px.value_or(feature.px), feature.sigma_px, std::nullopt});
   }
-  const auto point = TriangulatePoint(camera, measured, {.min_parallax = kMinParallax});
+  const auto point = TriangulatePoint(camera, measured, {.min_angle = kMinParallax});
   if (!point || point->chi2 > Chi2Limit95(point->residuals - 3)) return std::nullopt;
-  const PointEstimate in_camera = Transform(measured.front().cam_from_world, point->point);
-  const double depth = in_camera.position.z();
-  if (std::sqrt(in_camera.covariance(2, 2)) > kMaxPointSigma * depth) {
-    return std::nullopt;
-  }
-  return InitialPoint{point->point.position, track};
+  const Rigid3& cam_from_world = measured.front().cam_from_world;
+  const Eigen::Matrix3d R = cam_from_world.rotation.toRotationMatrix();
+  const Eigen::Matrix3d covariance = R * point->covariance * R.transpose();  // in the camera
+  const double depth = (cam_from_world * point->position).z();
+  if (std::sqrt(covariance(2, 2)) > kMaxPointSigma * depth) return std::nullopt;
+  return InitialPoint{point->position, track};
 }
 
 struct DepthRange {
@@ -107,16 +105,16 @@ std::optional<InitialLine> BuildLine(const RectifiedCamera& camera,
                                      const DepthRange& depths) {
   const std::vector<LineView> measured = LineViews(views, track);
   const auto line =
-      TriangulateLine(camera, measured, {.min_plane_angle = MinPlaneAngle(camera, measured)});
+      TriangulateLine(camera, measured, {.min_angle = MinPlaneAngle(camera, measured)});
   if (!line) return std::nullopt;
-  const auto segment = SeenPart(camera, measured, line->estimate.line);
+  const auto segment = SeenPart(camera, measured, line->line);
   if (!segment) return std::nullopt;
   const Rigid3& cam_from_world = views.front().cam_from_world;
   for (const Eigen::Vector3d& end : {segment->start, segment->end}) {
     const double depth = (cam_from_world * end).z();
     if (depth < depths.nearest || depth > depths.furthest) return std::nullopt;
   }
-  return InitialLine{line->estimate.line, *segment, track};
+  return InitialLine{line->line, *segment, track};
 }
 
 BaProblem MakeProblem(const RectifiedCamera& camera, const InitialMap& map) {

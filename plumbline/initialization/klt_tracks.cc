@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/klt_tracks.h"
 
-#include "plumbline/base/index.h"
+#include "plumbline/base/ids.h"
 #include "plumbline/base/parallel.h"
 #include "plumbline/image/opencv_bridge.h"
 

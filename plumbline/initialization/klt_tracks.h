@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/base/helper_thread.h"
+#include "plumbline/base/parallel.h"
 #include "plumbline/features/types.h"
 #include "plumbline/image/image.h"
 #include "plumbline/map/frame.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/base/helper_thread.h"
+#include "plumbline/base/parallel.h"
 #include "plumbline/initialization/initializer.h"
 #include "plumbline/initialization/options.h"
 #include "plumbline/matching/projection_search.h"

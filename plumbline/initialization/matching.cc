@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/matching.h"
 
-#include "plumbline/base/index.h"
-#include "plumbline/base/median.h"
+#include "plumbline/base/ids.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/base/units.h"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ std::vector<PointFeature> Moved(std::vector<PointFeature> points, const ImageMot
   return points;
 }
 
-double Turn(const Features& a, const Features& b, const PointMatch& match) {
+double Turn(const Features& a, const Features& b, const FeatureMatch& match) {
   return b.points[Index(match.b)].angle - a.points[Index(match.a)].angle;
 }
 
@@ -68,7 +68,7 @@ double Turn(const Features& a, const Features& b, const PointMatch& match) {
 // most matches.
 double CameraRoll(const Features& a,
                   const Features& b,
-                  std::span<const PointMatch> matches,
+                  std::span<const FeatureMatch> matches,
                   double half_width) {
   constexpr int kBins = 180;
   const auto bin_of = [](double turn) {
@@ -76,7 +76,7 @@ double CameraRoll(const Features& a,
     return static_cast<int>((part - std::floor(part)) * kBins) % kBins;
   };
   std::vector<int> count(kBins, 0);
-  for (const PointMatch& match : matches) ++count[Index(bin_of(Turn(a, b, match)))];
+  for (const FeatureMatch& match : matches) ++count[Index(bin_of(Turn(a, b, match)))];
   const int reach = static_cast<int>(half_width / (2 * std::numbers::pi) * kBins);
   int best = -1;
   int best_bin = 0;
@@ -95,16 +95,16 @@ double CameraRoll(const Features& a,
 void DropOtherTurns(const Features& a,
                     const Features& b,
                     double limit,
-                    std::vector<PointMatch>& matches) {
+                    std::vector<FeatureMatch>& matches) {
   const double roll = CameraRoll(a, b, matches, limit);
-  std::erase_if(matches, [&](const PointMatch& match) {
+  std::erase_if(matches, [&](const FeatureMatch& match) {
     return std::abs(std::remainder(Turn(a, b, match) - roll, 2 * std::numbers::pi)) > limit;
   });
 }
 
-ImageMotion MotionOf(const Features& a, const Features& b, std::span<const PointMatch> matches) {
+ImageMotion MotionOf(const Features& a, const Features& b, std::span<const FeatureMatch> matches) {
   std::vector<PixelPair> pairs;
-  for (const PointMatch& match : matches) {
+  for (const FeatureMatch& match : matches) {
     pairs.push_back({a.points[Index(match.a)].px, b.points[Index(match.b)].px});
   }
   return ImageMotion(pairs);
@@ -114,16 +114,16 @@ void DropFarFromPrediction(const Features& a,
                            const Features& b,
                            const ImageMotion& motion,
                            double limit_px,
-                           std::vector<PointMatch>& matches) {
-  std::erase_if(matches, [&](const PointMatch& match) {
+                           std::vector<FeatureMatch>& matches) {
+  std::erase_if(matches, [&](const FeatureMatch& match) {
     const Eigen::Vector2d expected = motion(a.points[Index(match.a)].px);
     return (b.points[Index(match.b)].px - expected).norm() > limit_px;
   });
 }
 
-std::vector<LineMatch> MatchMovedLines(const Features& reference,
-                                       const Features& frame,
-                                       const ImageMotion& motion) {
+std::vector<FeatureMatch> MatchMovedLines(const Features& reference,
+                                          const Features& frame,
+                                          const ImageMotion& motion) {
   std::vector<LineFeature> moved = reference.lines;
   for (LineFeature& line : moved) line.segment = motion(line.segment);
   LineMatchOptions search;

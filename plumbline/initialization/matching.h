@@ -59,8 +59,8 @@ class ImageMotion {
 
 // Matches of the features of a reference frame (a) in a later frame (b).
 struct ReferenceMatches {
-  std::vector<PointMatch> points;  // ordered by feature of the reference
-  std::vector<LineMatch> lines;
+  std::vector<FeatureMatch> points;  // ordered by feature of the reference
+  std::vector<FeatureMatch> lines;
   ImageMotion motion;  // motion from the reference to the frame, a guess for the next frame
 };
 

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/model_selection.h"
 
-#include "plumbline/base/chi2.h"
 #include "plumbline/base/elementary.h"
-#include "plumbline/base/index.h"
-#include "plumbline/base/median.h"
+#include "plumbline/base/ids.h"
 #include "plumbline/base/parallel.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/base/units.h"
-#include "plumbline/geometry/basis_across.h"
+#include "plumbline/geometry/se3.h"
 #include "plumbline/initialization/reconstruction_covariance.h"
 #include "plumbline/solvers/pose_refinement.h"
 

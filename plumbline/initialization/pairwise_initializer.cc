@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/pairwise_initializer.h"
 
-#include "plumbline/base/index.h"
+#include "plumbline/base/ids.h"
 #include "plumbline/base/random.h"
 #include "plumbline/base/units.h"
-#include "plumbline/solvers/pairwise_pose.h"
+#include "plumbline/solvers/relative_pose.h"
 
 #include <cstddef>
 #include <limits>

@@ -5,7 +5,7 @@
 #include "plumbline/base/elementary.h"
 #include "plumbline/features/image_patch.h"
 #include "plumbline/geometry/se3.h"
-#include "plumbline/geometry/symmetric_system.h"
+#include "plumbline/geometry/symmetric_matrix.h"
 
 #include <cmath>
 #include <cstddef>

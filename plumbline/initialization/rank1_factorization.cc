@@ -4,8 +4,8 @@
 
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
-#include "plumbline/base/median.h"
-#include "plumbline/geometry/unit_rotation.h"
+#include "plumbline/base/statistics.h"
+#include "plumbline/geometry/se3.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/reconstruction.h"
 
-#include "plumbline/base/median.h"
-#include "plumbline/geometry/line_triangulation.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/geometry/triangulation.h"
 #include "plumbline/optimization/bundle_adjustment.h"
 #include "plumbline/optimization/residuals.h"
@@ -45,10 +44,10 @@ std::optional<PluckerLine> Triangulate(const FeatureTracks& tracks,
   VisitViews(tracks.lines, k, [&](std::size_t i, const ViewLines& view) {
     views.push_back({reconstruction.Pose(i), view.segments[k], view.sigmas[k]});
   });
-  const auto line = TriangulateLine(
-      kIdealCamera, views, {.min_plane_angle = 1e-3, .max_residual_sigma = kAnyResidual});
+  const auto line =
+      TriangulateLine(kIdealCamera, views, {.min_angle = 1e-3, .max_residual_sigma = kAnyResidual});
   if (!line) return std::nullopt;
-  return line->estimate.line;
+  return line->line;
 }
 
 }  // namespace
@@ -68,8 +67,8 @@ void TriangulatePoints(const FeatureTracks& tracks, Reconstruction& reconstructi
     VisitViews(tracks, k, [&](std::size_t i, const ViewPoints& view) {
       views.push_back({reconstruction.Pose(i), view.points[k], view.sigmas[k], std::nullopt});
     });
-    const auto point = TriangulatePoint(kIdealCamera, views, {.min_parallax = 0});
-    if (point) reconstruction.points[k] = point->point.position;
+    const auto point = TriangulatePoint(kIdealCamera, views, {.min_angle = 0});
+    if (point) reconstruction.points[k] = point->position;
   }
 }
 

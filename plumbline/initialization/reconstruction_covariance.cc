@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/reconstruction_covariance.h"
 
-#include "plumbline/base/chi2.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/geometry/covariance.h"
 #include "plumbline/optimization/residuals.h"
 

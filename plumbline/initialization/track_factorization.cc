@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/track_factorization.h"
 
-#include "plumbline/base/median.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/initialization/geometric_interpolation.h"
 #include "plumbline/initialization/reconstruction_covariance.h"
 #include "plumbline/optimization/pose_optimization.h"

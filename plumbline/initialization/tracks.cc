@@ -3,7 +3,7 @@
 #include "plumbline/initialization/tracks.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/base/index.h"
+#include "plumbline/base/ids.h"
 #include "plumbline/base/parallel.h"
 #include "plumbline/initialization/patch_alignment.h"
 
@@ -146,7 +146,7 @@ int InitializationWindow::Add(const InitializationFrame& frame) {
 std::vector<InitializationWindow::Place> InitializationWindow::PlacesOfMatches(
     const Features& features, const ReferenceMatches& matches) const {
   std::vector<Place> places(reference_->indexed->features.points.size());
-  for (const PointMatch& match : matches.points) {
+  for (const FeatureMatch& match : matches.points) {
     const PointFeature& seen = features.points[Index(match.b)];
     places[Index(match.a)] = {seen.px, seen.sigma_px};
   }
@@ -162,7 +162,7 @@ std::vector<InitializationWindow::Place> InitializationWindow::PlacesOnImage(
   const std::vector<PointFeature>& reference = reference_->indexed->features.points;
   flow_.Follow(frame.image, helper_);
   TrackedPixels guesses = flow_.places();
-  for (const PointMatch& match : matches.points) {
+  for (const FeatureMatch& match : matches.points) {
     auto& guess = guesses[Index(match.a)];
     if (!guess) guess = frame.indexed->features.points[Index(match.b)].px;
   }
@@ -335,7 +335,7 @@ std::vector<FeatureTrack> InitializationWindow::LineObservations(
     const std::vector<int>& frames) const {
   std::vector<FeatureTrack> tracks(reference_->indexed->features.lines.size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    for (const LineMatch& match : frames_[Index(frames[i])].matches.lines) {
+    for (const FeatureMatch& match : frames_[Index(frames[i])].matches.lines) {
       FeatureTrack& track = tracks[Index(match.a)];
       if (track.empty()) track.push_back({0, match.a});
       track.push_back({static_cast<int>(i) + 1, match.b});

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/base/helper_thread.h"
+#include "plumbline/base/parallel.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/segment.h"
 #include "plumbline/initialization/initializer.h"

@@ -5,7 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
 #include "plumbline/base/printable.h"
-#include "plumbline/geometry/plausible_calibration.h"
+#include "plumbline/geometry/calibration.h"
 #include "plumbline/io/camera_formats.h"
 #include "plumbline/io/camera_section.h"
 #include "plumbline/io/yaml_section.h"

@@ -33,7 +33,7 @@ namespace plumbline {
 //
 // Throws InputError "source:line: key: expected ..., found ...".
 //
-// Implausible numbers (plausible_calibration.h) are refused, those of the second camera only if
+// Implausible numbers (geometry/calibration.h) are refused, those of the second camera only if
 // `use_pair`.
 Calibration ParseCamera(const std::string& yaml, const std::string& source, bool use_pair = true);
 

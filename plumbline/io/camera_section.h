@@ -42,7 +42,7 @@ struct CameraKeys {
   std::string coefficients;
 };
 
-// Returns Camera(intrinsics) if the numbers are plausible (plausible_calibration.h). Otherwise
+// Returns Camera(intrinsics) if the numbers are plausible (geometry/calibration.h). Otherwise
 // throws InputError at the key of the size, of the first implausible intrinsic, or of the
 // coefficients.
 Camera CheckedCamera(const YamlSection& section,
@@ -66,7 +66,7 @@ struct CalibrationKeys {
   std::vector<std::string> pair, rate, depth_factor, lever;
 };
 
-// Fails at the key of the first implausible number (plausible_calibration.h). The pair is checked
+// Fails at the key of the first implausible number (geometry/calibration.h). The pair is checked
 // only if it is used: even a rig without a usable pair has a usable left camera.
 void CheckCalibration(const YamlSection& root,
                       const CalibrationKeys& keys,

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/dataset_formats.h"
-
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
 #include "plumbline/base/printable.h"
-#include "plumbline/geometry/plausible_calibration.h"
+#include "plumbline/geometry/calibration.h"
 #include "plumbline/io/camera_file.h"
 #include "plumbline/io/camera_formats.h"
+#include "plumbline/io/dataset_formats.h"
 #include "plumbline/io/ground_truth.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/text_rows.h"

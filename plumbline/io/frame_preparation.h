@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/geometry/orientation.h"
 #include "plumbline/image/image.h"
+#include "plumbline/image/resample.h"
 #include "plumbline/io/dataset.h"
 
 #include <cstdint>

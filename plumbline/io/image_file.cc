@@ -3,7 +3,7 @@
 #include "plumbline/io/image_file.h"
 
 #include "plumbline/base/crc32.h"
-#include "plumbline/geometry/plausible_calibration.h"
+#include "plumbline/geometry/calibration.h"
 #include "plumbline/image/image_codecs.h"
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/image/opencv_modules.h"

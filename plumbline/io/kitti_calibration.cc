@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
-#include "plumbline/geometry/plausible_calibration.h"
+#include "plumbline/geometry/calibration.h"
 #include "plumbline/io/camera_formats.h"
 #include "plumbline/io/text_rows.h"
 
@@ -57,7 +57,7 @@ CalibrationRow ReadNumbers(const fs::path& file, const std::string& name, std::s
   return read;
 }
 
-// Throws InputError at the line of the file if there is a fault (plausible_calibration.h).
+// Throws InputError at the line of the file if there is a fault (geometry/calibration.h).
 void Refuse(const std::optional<std::string>& fault, const fs::path& file, int line) {
   if (fault) throw InputError(fmt::format("{}:{}: {}", file.string(), line, *fault));
 }

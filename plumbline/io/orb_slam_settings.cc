@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/printable.h"
-#include "plumbline/geometry/plausible_calibration.h"
+#include "plumbline/geometry/calibration.h"
 #include "plumbline/io/camera_formats.h"
 #include "plumbline/io/camera_section.h"
 

@@ -3,7 +3,7 @@
 #include "plumbline/io/raw_pixels.h"
 
 #include "plumbline/base/printable.h"
-#include "plumbline/geometry/plausible_calibration.h"
+#include "plumbline/geometry/calibration.h"
 #include "plumbline/image/opencv_bridge.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
-#include "plumbline/geometry/plausible_calibration.h"
+#include "plumbline/geometry/calibration.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
-#include "plumbline/geometry/unit_rotation.h"
+#include "plumbline/geometry/se3.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/text_rows.h"
 

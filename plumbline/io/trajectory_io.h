@@ -54,7 +54,7 @@ LoadedTrajectory ReadTrajectory(const std::filesystem::path& path,
 std::vector<StampedRow> ReadKittiTimes(const std::filesystem::path& path);
 
 // Returns a trajectory in TUM form: 9 decimals for the stamp, 9 for the rest; qw >= 0. It has no
-// header. Throws InputError for an invalid rotation (geometry/unit_rotation.h).
+// header. Throws InputError for an invalid rotation (UnitRotation).
 std::string FormatTum(const Trajectory& trajectory);
 // Throws WriteError, which names `file`, if WriteTum would not write this trajectory.
 void CheckTum(const std::filesystem::path& file, const Trajectory& trajectory);

@@ -3,7 +3,6 @@
 #include "plumbline/io/yaml_section.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/base/nearest_name.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/base/yaml_document.h"
 #include "plumbline/io/text_rows.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/printable.h"
-#include "plumbline/geometry/plausible_calibration.h"
+#include "plumbline/geometry/calibration.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/raw_pixels.h"
 #include "plumbline/io/text_rows.h"

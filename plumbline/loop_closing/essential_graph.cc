@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/loop_closing/essential_graph.h"
 
-#include "plumbline/base/index.h"
+#include "plumbline/base/ids.h"
 
 #include <algorithm>
 #include <cmath>

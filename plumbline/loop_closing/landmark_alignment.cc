@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/loop_closing/landmark_alignment.h"
 
-#include "plumbline/base/chi2.h"
-#include "plumbline/geometry/basis_across.h"
-#include "plumbline/geometry/rotation_fit.h"
-#include "plumbline/matching/line_information.h"
+#include "plumbline/base/statistics.h"
+#include "plumbline/geometry/alignment.h"
+#include "plumbline/geometry/se3.h"
 #include "plumbline/matching/measurements.h"
-#include "plumbline/matching/uncertain_line.h"
-#include "plumbline/optimization/robust_loss.h"
+#include "plumbline/optimization/residuals.h"
 #include "plumbline/solvers/ransac.h"
 
 #include <algorithm>

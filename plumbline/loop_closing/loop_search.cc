@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/loop_closing/loop_search.h"
 
-#include "plumbline/base/index.h"
+#include "plumbline/base/ids.h"
 #include "plumbline/features/match_lines.h"
 #include "plumbline/features/match_points.h"
 #include "plumbline/matching/measurements.h"
@@ -166,7 +166,8 @@ LoopMatches LoopSearch::MatchDescriptors(const LoopVerificationOptions& options)
   PointMatchOptions point_options;
   point_options.max_distance = options.max_distance;
   point_options.ratio = options.ratio;
-  for (const PointMatch& match : MatchPoints(points_a.features, points_b.features, point_options)) {
+  for (const FeatureMatch& match :
+       MatchPoints(points_a.features, points_b.features, point_options)) {
     AddPair(a.points[points_a.places[Index(match.a)]],
             b.points[points_b.places[Index(match.b)]],
             matches);
@@ -179,7 +180,7 @@ LoopMatches LoopSearch::MatchDescriptors(const LoopVerificationOptions& options)
   line_options.max_angle_deg = 60;
   line_options.max_offset_px = 1e6;
   line_options.max_shift_px = 0;
-  for (const LineMatch& match : MatchLines(lines_a.features, lines_b.features, line_options)) {
+  for (const FeatureMatch& match : MatchLines(lines_a.features, lines_b.features, line_options)) {
     AddPair(
         a.lines[lines_a.places[Index(match.a)]], b.lines[lines_b.places[Index(match.b)]], matches);
   }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/loop_closing/pairwise_consistency.h"
 
-#include "plumbline/base/index.h"
+#include "plumbline/base/ids.h"
 #include "plumbline/loop_closing/loop_edge.h"
 
 #include <cstddef>

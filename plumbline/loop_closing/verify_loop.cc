@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/loop_closing/verify_loop.h"
 
-#include "plumbline/base/index.h"
+#include "plumbline/base/ids.h"
 #include "plumbline/geometry/covariance.h"
-#include "plumbline/geometry/eigenpairs.h"
+#include "plumbline/geometry/symmetric_matrix.h"
 #include "plumbline/loop_closing/loop_edge.h"
 #include "plumbline/loop_closing/loop_search.h"
 #include "plumbline/loop_closing/significance.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/map/combined_atlases.h"
 
-#include "plumbline/geometry/camera_difference.h"
+#include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/map/map_builder.h"
 
 #include <algorithm>

@@ -32,7 +32,7 @@ std::shared_ptr<const FrameFeatures> WithCorrection(
 // (FindRightLines).
 std::shared_ptr<const FrameFeatures> WithRightLines(
     const std::shared_ptr<const FrameFeatures>& indexed,
-    std::vector<std::optional<RightLine>> measured);
+    std::vector<std::optional<MeasuredSegment>> measured);
 
 // Returns measured features with a correction applied and indexed, for images of the camera's size.
 std::shared_ptr<const FrameFeatures> IndexFeatures(const RectifiedCamera& camera,

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/base/stop_check.h"
-#include "plumbline/features/lens_correction.h"
+#include "plumbline/features/feature_correction.h"
 #include "plumbline/geometry/se3.h"
 #include "plumbline/optimization/problem.h"
 

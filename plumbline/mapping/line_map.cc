@@ -3,7 +3,6 @@
 #include "plumbline/mapping/line_map.h"
 
 #include "plumbline/mapping/line_observation_search.h"
-#include "plumbline/matching/line_information.h"
 #include "plumbline/matching/measurements.h"
 #include "plumbline/optimization/residuals.h"
 

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/line_observation_search.h"
 
-#include "plumbline/base/chi2.h"
 #include "plumbline/base/elementary.h"
-#include "plumbline/geometry/line_triangulation.h"
-#include "plumbline/geometry/stretches.h"
+#include "plumbline/base/statistics.h"
+#include "plumbline/geometry/segment.h"
+#include "plumbline/geometry/triangulation.h"
 #include "plumbline/matching/measurements.h"
-#include "plumbline/matching/uncertain_line.h"
 #include "plumbline/optimization/residuals.h"
 
 #include <algorithm>
@@ -163,9 +162,8 @@ std::optional<LineHypothesis> LineThroughSupports(const RectifiedCamera& camera,
   // All supports were tested against the line before, so that no limit on the residual is needed
   // here.
   constexpr double kMinPlaneAngle = 0.002;
-  const LineTriangulationOptions options{
-      .min_plane_angle = kMinPlaneAngle,
-      .max_residual_sigma = std::numeric_limits<double>::infinity()};
+  const TriangulationOptions options{.min_angle = kMinPlaneAngle,
+                                     .max_residual_sigma = std::numeric_limits<double>::infinity()};
   std::vector<LineView> views;
   for (const LineSupport& support : supports) {
     const Frame& frame = support.keyframe->frame;
@@ -173,14 +171,14 @@ std::optional<LineHypothesis> LineThroughSupports(const RectifiedCamera& camera,
     views.push_back(
         {frame.cam_from_world, left.segment, math::Hypot(left.sigma_px, kPoseUncertaintyPx)});
     if (!support.right) continue;
-    const RightLine& right = *frame.features().line_right[support.feature];
+    const MeasuredSegment& right = *frame.features().line_right[support.feature];
     views.push_back({RightCamera(camera, frame.cam_from_world),
                      right.segment,
                      math::Hypot(right.sigma_px, kPoseUncertaintyPx)});
   }
   const auto found = TriangulateLine(camera, views, options);
   if (!found) return std::nullopt;
-  return LineHypothesis{found->estimate.line, {}, found->estimate.covariance.inverse()};
+  return LineHypothesis{found->line, {}, found->covariance.inverse()};
 }
 
 std::vector<LineInterval> ShownParts(const RectifiedCamera& camera,

@@ -7,8 +7,8 @@
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/frustum_tree.h"
+#include "plumbline/matching/measurements.h"
 #include "plumbline/matching/projection_search.h"
-#include "plumbline/matching/uncertain_line.h"
 
 #include <bit>
 #include <cstddef>

@@ -6,7 +6,7 @@
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/map_problem.h"
 #include "plumbline/mapping/parallel_lines.h"
-#include "plumbline/matching/line_information.h"
+#include "plumbline/matching/measurements.h"
 
 #include <algorithm>
 #include <cmath>

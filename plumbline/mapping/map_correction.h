@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/features/lens_correction.h"
+#include "plumbline/features/feature_correction.h"
 #include "plumbline/geometry/sim3.h"
 #include "plumbline/map/edit.h"
 #include "plumbline/map/map.h"

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/map_problem.h"
 
-#include "plumbline/base/median.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/geometry/plucker.h"
 #include "plumbline/geometry/trimming.h"
-#include "plumbline/matching/line_information.h"
+#include "plumbline/matching/measurements.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -6,7 +6,6 @@
 #include "plumbline/matching/measurements.h"
 #include "plumbline/matching/projection_search.h"
 #include "plumbline/optimization/bundle_adjustment.h"
-#include "plumbline/optimization/bundle_adjustment_result.h"
 #include "plumbline/optimization/problem.h"
 
 #include <cstddef>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/parallel_lines.h"
 
-#include "plumbline/base/chi2.h"
 #include "plumbline/base/elementary.h"
-#include "plumbline/geometry/basis_across.h"
+#include "plumbline/base/statistics.h"
+#include "plumbline/geometry/se3.h"
 
 #include <algorithm>
 #include <cmath>

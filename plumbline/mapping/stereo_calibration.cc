@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/stereo_calibration.h"
 
-#include "plumbline/geometry/eigenpairs.h"
+#include "plumbline/geometry/symmetric_matrix.h"
 #include "plumbline/geometry/triangulation.h"
 
 #include <algorithm>
@@ -102,11 +102,11 @@ void StereoCalibrator::Observe(const Map& map, const KeyFrame& keyframe) {
     const MapPoint* point = frame.points[i].valid() ? map.Find(frame.points[i]) : nullptr;
     if (!disparity || point == nullptr || point->observations.size() < kMinKeyFrames) continue;
     const auto found =
-        TriangulatePoint(camera_, LeftViews(map, *point), {.min_parallax = kMinParallax});
+        TriangulatePoint(camera_, LeftViews(map, *point), {.min_angle = kMinParallax});
     if (!found) continue;
-    const double z = (frame.cam_from_world * found->point.position).z();
+    const double z = (frame.cam_from_world * found->position).z();
     const double predicted = camera_.DisparityFromDepth(z);
-    const double depth_variance = depth_row * found->point.covariance * depth_row.transpose();
+    const double depth_variance = depth_row * found->covariance * depth_row.transpose();
     const double variance = predicted * predicted * depth_variance / (z * z);
     if (!(variance <= max_sigma_px * max_sigma_px)) continue;
     const Eigen::Vector2d px = frame.features().points[i].px - Eigen::Vector2d(disparity->px, 0);

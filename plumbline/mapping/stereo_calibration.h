@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/features/stereo_correction.h"
-#include "plumbline/features/stereo_evidence.h"
+#include "plumbline/features/feature_correction.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/map/atlas.h"
 #include "plumbline/map/edit.h"

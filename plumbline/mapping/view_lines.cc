@@ -45,7 +45,7 @@ MapEdit CreateLinesFromViews(const Map& map,
     const FreeLines theirs(other);
     const LineMatchOptions matching = LineMatchingOf(
         lines, other.cam_from_world.rotation * frame.cam_from_world.rotation.conjugate());
-    for (const LineMatch& match : MatchLines(mine.features, theirs.features, matching)) {
+    for (const FeatureMatch& match : MatchLines(mine.features, theirs.features, matching)) {
       auto& track = tracks[mine.index[static_cast<std::size_t>(match.a)]];
       if (track.empty()) track.push_back({id, mine.index[static_cast<std::size_t>(match.a)]});
       track.push_back({neighbour.id, theirs.index[static_cast<std::size_t>(match.b)]});

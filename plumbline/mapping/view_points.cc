@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/base/chi2.h"
 #include "plumbline/base/error.h"
-#include "plumbline/base/median.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/geometry/epipolar.h"
 #include "plumbline/geometry/triangulation.h"
 #include "plumbline/map/covisibility.h"
@@ -146,9 +145,9 @@ class PairSearch {
 
   std::optional<Eigen::Vector3d> Triangulate(std::size_t i, std::size_t j) const {
     const std::array<PointView, 2> views{View(a_, i), View(b_, j)};
-    const auto result = TriangulatePoint(camera_, views, {.min_parallax = kMinParallax});
+    const auto result = TriangulatePoint(camera_, views, {.min_angle = kMinParallax});
     if (!result || result->chi2 > Chi2Limit95(result->residuals - 3)) return std::nullopt;
-    const Eigen::Vector3d& position = result->point.position;
+    const Eigen::Vector3d& position = result->position;
     const double distance_a = (a_.cam_from_world * position).norm();
     const double distance_b = (b_.cam_from_world * position).norm();
     const double scale_ratio = views[0].sigma_px * distance_a / (views[1].sigma_px * distance_b);

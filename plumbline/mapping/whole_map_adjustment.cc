@@ -5,9 +5,9 @@
 #include "plumbline/mapping/lens_calibration.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/map_problem.h"
-#include "plumbline/optimization/elimination_plan.h"
+#include "plumbline/optimization/multifrontal_cholesky.h"
 #include "plumbline/optimization/pose_uncertainty.h"
-#include "plumbline/optimization/sharing_poses.h"
+#include "plumbline/optimization/problem.h"
 
 #include <cstddef>
 #include <limits>

@@ -3,7 +3,6 @@
 #include "plumbline/matching/fusion.h"
 
 #include "plumbline/matching/measurements.h"
-#include "plumbline/matching/uncertain_line.h"
 #include "plumbline/optimization/residuals.h"
 
 #include <cstddef>

@@ -3,10 +3,9 @@
 #include "plumbline/matching/landmark_from_frame.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/base/median.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/features/match_lines.h"
 #include "plumbline/line_cutting/cutting_problem.h"
-#include "plumbline/matching/line_information.h"
 #include "plumbline/matching/measurements.h"
 
 #include <cmath>

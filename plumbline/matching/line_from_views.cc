@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/matching/line_from_views.h"
 
-#include "plumbline/geometry/line_triangulation.h"
+#include "plumbline/geometry/triangulation.h"
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/map/map.h"
-#include "plumbline/matching/line_information.h"
+#include "plumbline/matching/measurements.h"
 #include "plumbline/optimization/residuals.h"
 
 #include <numbers>
@@ -79,9 +79,9 @@ std::optional<MapLine> LineFromViews(const Map& map,
                                      const RectifiedCamera& camera,
                                      const std::vector<LineViewOf>& views) {
   const auto triangulated =
-      TriangulateLine(camera, ImageViews(map, camera, views), {.min_plane_angle = kMinPlaneAngle});
+      TriangulateLine(camera, ImageViews(map, camera, views), {.min_angle = kMinPlaneAngle});
   if (!triangulated) return std::nullopt;
-  const PluckerLine& line = triangulated->estimate.line;
+  const PluckerLine& line = triangulated->line;
   const Frame& first = map.Find(views.front().keyframe)->frame;
   const Segment2& segment = first.features().lines[views.front().feature].segment;
   const auto interval = TrimToSegment(camera, first.cam_from_world, line, segment);

@@ -2,15 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/matching/measurements.h"
 
-#include "plumbline/matching/uncertain_line.h"
+#include "plumbline/geometry/covariance.h"
 #include "plumbline/optimization/residuals.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
 
 namespace plumbline {
+
+Eigen::Matrix4d RegularizedInformation(const Eigen::Matrix4d& information) {
+  constexpr double kUnknownLineSigma = 0.5;  // radians
+  return information + Eigen::Matrix4d::Identity() / (kUnknownLineSigma * kUnknownLineSigma);
+}
+
+UncertainLine::UncertainLine(const PluckerLine& line, const Eigen::Matrix4d& information_of_it)
+    : prepared(ToOrthonormal(line)), information(RegularizedInformation(information_of_it)) {}
+
 namespace {
 
 LineMeasurement Measure(const Segment2& segment, double sigma_px, const LineWeights& weights) {
@@ -90,6 +100,47 @@ void AddLandmarkUncertainty(const RectifiedCamera& camera,
     measurement.covariance = noise + BoundedSpreadOf(residual->J_line, line.information);
   }
   MakeScalar(weights, measurement.covariance);
+}
+
+Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
+                                const Frame& frame,
+                                std::size_t i,
+                                const PluckerLine& line) {
+  return LineInformation(camera, frame, i, PreparedLine(ToOrthonormal(line)));
+}
+
+Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
+                                const Frame& frame,
+                                std::size_t i,
+                                const PreparedLine& line) {
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
+  const auto add = [&](const LineMeasurement& measurement) {
+    const auto residual = EvaluateLine(camera, frame.cam_from_world, line, measurement);
+    if (residual) information += residual->J_line.transpose() * residual->J_line;
+  };
+  add(MeasureLeftLine(frame.features(), i, LineWeighting::kCovariance));
+  if (const auto right = MeasureRightLine(frame.features(), i, LineWeighting::kCovariance)) {
+    add(*right);
+  }
+  return information;
+}
+
+Eigen::Matrix<double, 3, 4> ShiftJacobian(const PluckerLine& line,
+                                          const OrthonormalLine& orthonormal,
+                                          double t) {
+  // The moment about a point P of the line is m - P x d = 0. A shift x of the line across itself
+  // makes it x X d, so that x = d X (dm - P X dd), with (m, d) scaled to |d| = 1.
+  const Eigen::Matrix<double, 6, 4> J = HomogeneousJacobian(orthonormal);
+  const Eigen::Matrix<double, 3, 4> moment_about_p =
+      (J.topRows<3>() - Skew(line.PointAt(t)) * J.bottomRows<3>()) / orthonormal.w.y();
+  return Skew(line.direction) * moment_about_p;
+}
+
+double SigmaAt(const PluckerLine& line, const Eigen::Matrix4d& information, double t) {
+  const Eigen::LLT<Eigen::Matrix4d> factor(information);
+  if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+  const Eigen::Matrix<double, 3, 4> J_shift = ShiftJacobian(line, ToOrthonormal(line), t);
+  return LargestSigma(J_shift * factor.solve(J_shift.transpose()));
 }
 
 }  // namespace plumbline

@@ -4,9 +4,11 @@
 
 #include "plumbline/features/types.h"
 #include "plumbline/geometry/plucker.h"
+#include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/se3.h"
-#include "plumbline/matching/uncertain_line.h"
+#include "plumbline/map/frame.h"
 #include "plumbline/optimization/problem.h"
+#include "plumbline/optimization/residuals.h"
 
 #include <array>
 #include <cstddef>
@@ -14,9 +16,22 @@
 #include <type_traits>
 #include <utility>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 namespace plumbline {
+
+// Returns the information with an added prior of standard deviation 0.5 rad for every direction of
+// the tangent, which regularizes directions without information.
+Eigen::Matrix4d RegularizedInformation(const Eigen::Matrix4d& information);
+
+// A line in the world and its uncertainty, prepared for many measurements.
+struct UncertainLine {
+  UncertainLine(const PluckerLine& line, const Eigen::Matrix4d& information);
+
+  PreparedLine prepared;
+  Eigen::LLT<Eigen::Matrix4d> information;  // regularized
+};
 
 enum class LineWeighting { kNone, kScalar, kCovariance };
 
@@ -66,5 +81,29 @@ void AddLandmarkUncertainty(const RectifiedCamera& camera,
                             const UncertainLine& line,
                             const LineWeights& weights,
                             LineMeasurement& measurement);
+
+// Returns the information of line feature i of a frame about a line in the world: J^T Sigma^-1 J
+// over the residuals of its left and right measurement, for the orthonormal tangent of `line`. The
+// pose counts as exact.
+Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
+                                const Frame& frame,
+                                std::size_t i,
+                                const PluckerLine& line);
+// Returns the information for a line prepared for many features.
+Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
+                                const Frame& frame,
+                                std::size_t i,
+                                const PreparedLine& line);
+
+// Returns the derivative with respect to the orthonormal tangent of the point of the line at
+// parameter t (PluckerLine::PointAt), restricted to its motion across the line.
+Eigen::Matrix<double, 3, 4> ShiftJacobian(const PluckerLine& line,
+                                          const OrthonormalLine& orthonormal,
+                                          double t);
+
+// Returns the standard deviation, in the map's scale, of the line's position at parameter t
+// (PluckerLine::PointAt) in the worst direction across the line. Infinite if the information leaves
+// that direction undetermined.
+double SigmaAt(const PluckerLine& line, const Eigen::Matrix4d& information, double t);
 
 }  // namespace plumbline

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/base/chi2.h"
-#include "plumbline/optimization/ba_parallel_lines.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/optimization/ba_terms.h"
 #include "plumbline/optimization/schur_solver.h"
 

@@ -4,8 +4,8 @@
 
 #include "plumbline/base/stop_check.h"
 #include "plumbline/optimization/ba_landmarks.h"
-#include "plumbline/optimization/bundle_adjustment_result.h"
-#include "plumbline/optimization/robust_loss.h"
+#include "plumbline/optimization/problem.h"
+#include "plumbline/optimization/residuals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,8 @@
 
 namespace plumbline {
 
-// Implements SolveLocalBa for any kind of line. Internal to local_ba.cc and the laboratory, which
-// compares other kinds of lines.
+// Implements SolveLocalBa for any kind of line. Internal to bundle_adjustment.cc and the
+// laboratory, which compares other kinds of lines.
 
 inline std::vector<BaPose> MakePoses(const BaProblem& problem) {
   std::vector<BaPose> poses(problem.poses.size());

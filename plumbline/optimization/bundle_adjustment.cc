@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/optimization/bundle_adjustment.h"
 
-#include "plumbline/geometry/unit_rotation.h"
+#include "plumbline/geometry/se3.h"
 #include "plumbline/optimization/bundle_adjuster.h"
-#include "plumbline/optimization/check_problem.h"
+#include "plumbline/optimization/problem.h"
 
 #include <cstddef>
 #include <optional>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "plumbline/base/stop_check.h"
-#include "plumbline/optimization/bundle_adjustment_result.h"
 #include "plumbline/optimization/problem.h"
 
 namespace plumbline {
@@ -22,7 +21,7 @@ namespace plumbline {
 // parameters without observations are fixed by the damping.
 //
 //   problem   poses cam_from_world, landmarks in the world, measurements in pixels; indices must be
-//             in range (BugError otherwise), rotations of norm 1 (unit_rotation.h; InputError
+//             in range (BugError otherwise), rotations of norm 1 (UnitRotation; InputError
 //             otherwise)
 //   stop      called in every iteration, and while the equations of many poses are solved
 //   returns   finite numbers whenever the input is finite

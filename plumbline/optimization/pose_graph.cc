@@ -3,7 +3,7 @@
 #include "plumbline/optimization/pose_graph.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/base/index.h"
+#include "plumbline/base/ids.h"
 #include "plumbline/optimization/multifrontal_cholesky.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/optimization/pose_optimization_result.h"
 #include "plumbline/optimization/problem.h"
 
 namespace plumbline {
@@ -14,7 +13,7 @@ namespace plumbline {
 // classified by chi2 at 95 %: points with 2 degrees of freedom (3 with disparity), all measurements
 // of one line group together with 2 each. A point behind the camera is an outlier. The initial pose
 // may be wrong by tens of pixels, with 30 % of the matches wrong. The contribution of a point's own
-// covariance to its residual is computed at the initial pose (uncertain_point.h).
+// covariance to its residual is computed at the initial pose (UncertainPointTerm).
 //
 //   problem   measurements in pixels, landmarks in the world, the initial pose
 //   returns   always a result; judge it by `converged` and the counts of inliers

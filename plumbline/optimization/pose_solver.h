@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/base/chi2.h"
-#include "plumbline/base/median.h"
-#include "plumbline/geometry/eigenpairs.h"
-#include "plumbline/geometry/symmetric_system.h"
-#include "plumbline/optimization/pose_optimization_result.h"
+#include "plumbline/base/statistics.h"
+#include "plumbline/geometry/symmetric_matrix.h"
 #include "plumbline/optimization/pose_terms.h"
-#include "plumbline/optimization/robust_loss.h"
-#include "plumbline/optimization/uncertain_point.h"
+#include "plumbline/optimization/problem.h"
+#include "plumbline/optimization/residuals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +17,8 @@
 
 namespace plumbline {
 
-// Implements SolvePose for any residual of lines. Internal to pose_only.cc and the laboratory,
-// which compares another residual.
+// Implements SolvePose for any residual of lines. Internal to pose_optimization.cc and to the
+// residual of projected ends (tracking/projected_matches.cc).
 
 // Returns true if all six degrees of freedom are determined: the information, scaled to a unit
 // diagonal, is regular.
@@ -32,7 +29,9 @@ inline bool IsRegular(const Matrix6d& information) {
   return EigenvaluesOf<6>(scaled)(0) > 1e-10;
 }
 
-// Levenberg-Marquardt over one pose. `Line` is a match of a line with the functions of PoseLine.
+// Levenberg-Marquardt over one pose. `Line` is a match of a line, made of the camera and a
+// PoseProblem::LineMatch, with the functions of PoseLine (pose_optimization.cc): Linearize,
+// PoseRows and Distances.
 template <class Line>
 class PoseSolver {
  public:

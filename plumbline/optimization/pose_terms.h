@@ -5,10 +5,8 @@
 #include "plumbline/geometry/se3.h"
 #include "plumbline/optimization/problem.h"
 #include "plumbline/optimization/residuals.h"
-#include "plumbline/optimization/robust_loss.h"
 
 #include <optional>
-#include <utility>
 
 namespace plumbline {
 
@@ -19,54 +17,6 @@ struct PosePoint {
   Eigen::Vector3d in_world;
   PointTerm term;
   std::optional<Eigen::Matrix3d> whitening;  // for the residuals of an UncertainPointTerm
-};
-
-// A match of a line, with the functions that PoseSolver needs.
-class PoseLine {
- public:
-  // The linearized residual in the camera of the measurement.
-  struct Linearization {
-    LineLinearization at;
-    Eigen::Vector3d direction, moment;
-  };
-
-  PoseLine(const RectifiedCamera& camera, const PoseProblem::LineMatch& match)
-      : moment_(match.line_in_world.moment),
-        direction_(match.line_in_world.direction),
-        term_(MakeLineTerm(camera, match.measurement)) {}
-
-  // Linearizes at a pose with rotation R; returns false if the residual is not defined.
-  bool Linearize(const RectifiedCamera& camera,
-                 const Rigid3& pose,
-                 const Eigen::Matrix3d& R,
-                 Linearization& out) const {
-    out.direction = R * direction_;
-    out.moment = MomentInCamera(R, pose.translation, out.direction);
-    return LinearizeLine(camera, term_, out.moment, out.at);
-  }
-  // Returns the derivatives of the two residuals with respect to the left perturbation of the pose.
-  std::pair<Vector6d, Vector6d> PoseRows(const Linearization& lin) const {
-    return {LinePoseRow(lin.at.h0, lin.moment, lin.direction, term_.shift),
-            LinePoseRow(lin.at.h1, lin.moment, lin.direction, term_.shift)};
-  }
-  // Computes only the residuals, at the pose with rotation R and translation t; returns false if
-  // they are not defined.
-  bool Distances(const RectifiedCamera& camera,
-                 const Eigen::Matrix3d& R,
-                 const Eigen::Vector3d& t,
-                 Eigen::Vector2d& r) const {
-    return WhitenedLineDistances(camera, term_, MomentInCamera(R, t, R * direction_), r);
-  }
-
- private:
-  Eigen::Vector3d MomentInCamera(const Eigen::Matrix3d& R,
-                                 const Eigen::Vector3d& t,
-                                 const Eigen::Vector3d& direction) const {
-    return R * moment_ + Eigen::Vector3d(t.x() + term_.shift, t.y(), t.z()).cross(direction);
-  }
-
-  Eigen::Vector3d moment_, direction_;  // in the world
-  LineTerm term_;
 };
 
 // Normal equations at one pose. Only the lower triangle of H is set.

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/optimization/pose_uncertainty.h"
 
-#include "plumbline/base/median.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/geometry/covariance.h"
-#include "plumbline/geometry/eigenpairs.h"
+#include "plumbline/geometry/symmetric_matrix.h"
 #include "plumbline/geometry/trimming.h"
-#include "plumbline/optimization/prepared_line.h"
 #include "plumbline/optimization/residuals.h"
 
 #include <cstddef>

@@ -5,15 +5,47 @@
 #include "plumbline/geometry/plucker.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/se3.h"
-#include "plumbline/optimization/prepared_line.h"
 #include "plumbline/optimization/problem.h"
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <Eigen/Core>
 
 namespace plumbline {
+
+// Returns Huber's loss of a squared Mahalanobis norm s. The loss is s up to the square of the
+// threshold k; from there on it is 2 k sqrt(s) - k^2, which grows like the norm itself. k =
+// infinity gives plain squares.
+inline double HuberLoss(double s, double k) {
+  return s <= k * k ? s : 2 * k * std::sqrt(s) - k * k;
+}
+
+// Returns the derivative of HuberLoss with respect to s: the weight of the residual in the normal
+// equations.
+inline double HuberWeight(double s, double k) { return s <= k * k ? 1.0 : k / std::sqrt(s); }
+
+// Thresholds of the Huber loss on the Mahalanobis norm, by kind of residual.
+struct HuberThresholds {
+  double point = std::numeric_limits<double>::infinity();
+  double disparity = std::numeric_limits<double>::infinity();  // for points with disparity
+  double line = std::numeric_limits<double>::infinity();
+};
+
+// Huber thresholds of bundle adjustment and pose estimation: the square roots of the 95 % quantiles
+// of chi2 with two, three and two degrees of freedom. Larger residuals are not noise.
+inline constexpr HuberThresholds kHuberThresholds{
+    .point = 2.4477, .disparity = 2.7955, .line = 2.4477};
+
+// A line in the world, prepared once for the residuals of all its measurements.
+struct PreparedLine {
+  explicit PreparedLine(const OrthonormalLine& line);
+
+  Vector6d homogeneous;  // moment and direction
+  // Derivative of moment and direction with respect to the orthonormal update.
+  Eigen::Matrix<double, 6, 4> J_orthonormal;
+};
 
 // Least depth [map scale] of a point with a residual.
 inline constexpr double kMinDepth = 1e-6;
@@ -208,5 +240,30 @@ inline Vector6d LinePoseRow(const Eigen::Vector3d& h,
   row << moment.cross(h) + Eigen::Vector3d(0, shift * dh.z(), -shift * dh.y()), dh;
   return row;
 }
+
+// A measurement of a point whose position has a covariance.
+struct UncertainPointTerm {
+  PointTerm term;             // its weights are one, so that residuals are in pixels
+  Eigen::Matrix3d whitening;  // whitens these residuals; lower triangular
+};
+
+// Returns the term of a point measurement at the given pose. The covariance of the residual is that
+// of the measurement plus that of the point's projection, S = diag(sigma^2) + J Sigma J^T; its
+// inverse Cholesky factor whitens. Returns nullopt if the point has no covariance (zero), is not in
+// front of the camera, or is so near that S is singular to working precision.
+//
+//   point_covariance  of the position in the world, map scale squared; positive semidefinite
+std::optional<UncertainPointTerm> MakeUncertainPointTerm(const RectifiedCamera& camera,
+                                                         const Rigid3& cam_from_world,
+                                                         const Eigen::Vector3d& point_in_world,
+                                                         const Eigen::Matrix3d& point_covariance,
+                                                         const PointMeasurement& measurement);
+
+// Returns residual and derivatives of a match at a pose, whitened with the covariance of
+// measurement and point there. Returns nullopt if the point is not in front of the camera, or so
+// near that its covariance is singular to working precision.
+std::optional<PointResidual> EvaluateMatch(const RectifiedCamera& camera,
+                                           const Rigid3& cam_from_world,
+                                           const PoseProblem::PointMatch& match);
 
 }  // namespace plumbline

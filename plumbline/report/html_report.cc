@@ -3,7 +3,7 @@
 #include "plumbline/report/html_report.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/base/escape_html.h"
+#include "plumbline/base/printable.h"
 #include "plumbline/io/atomic_file.h"
 
 #include <chrono>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/base/helper_thread.h"
+#include "plumbline/base/parallel.h"
 #include "plumbline/features/extractor.h"
 #include "plumbline/features/valid_region.h"
 #include "plumbline/geometry/calibration.h"

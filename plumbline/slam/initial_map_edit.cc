@@ -3,7 +3,7 @@
 #include "plumbline/slam/initial_map_edit.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/matching/line_information.h"
+#include "plumbline/matching/measurements.h"
 
 #include <cstddef>
 #include <cstdint>

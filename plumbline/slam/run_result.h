@@ -9,7 +9,6 @@
 #include "plumbline/geometry/trajectory.h"
 #include "plumbline/map/atlas.h"
 #include "plumbline/map/saved_atlas.h"
-#include "plumbline/mapping/adjusted_lines.h"
 #include "plumbline/mapping/mapped_line.h"
 #include "plumbline/slam/frame_log.h"
 #include "plumbline/slam/map_events.h"

@@ -3,8 +3,8 @@
 #include "plumbline/slam/system.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/geometry/camera_difference.h"
 #include "plumbline/geometry/covariance.h"
+#include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/slam/atlas_context.h"
 #include "plumbline/slam/saved_options.h"
 #include "plumbline/slam/system_methods.h"

@@ -3,7 +3,7 @@
 #include "plumbline/solvers/absolute_pose.h"
 
 #include "plumbline/base/random.h"
-#include "plumbline/geometry/symmetric_system.h"
+#include "plumbline/geometry/symmetric_matrix.h"
 #include "plumbline/solvers/polynomial.h"
 #include "plumbline/solvers/ransac.h"
 

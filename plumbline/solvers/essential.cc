@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/essential.h"
 
-#include "plumbline/geometry/eigenpairs.h"
-#include "plumbline/solvers/normalization.h"
+#include "plumbline/geometry/symmetric_matrix.h"
 #include "plumbline/solvers/polynomial.h"
+#include "plumbline/solvers/ray_match.h"
 
 #include <algorithm>
 #include <cmath>

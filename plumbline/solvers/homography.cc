@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/homography.h"
 
-#include "plumbline/geometry/eigenpairs.h"
-#include "plumbline/solvers/normalization.h"
+#include "plumbline/geometry/symmetric_matrix.h"
+#include "plumbline/solvers/ray_match.h"
 
 #include <cmath>
 #include <limits>

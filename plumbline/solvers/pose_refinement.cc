@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/pose_refinement.h"
 
-#include "plumbline/base/chi2.h"
-#include "plumbline/geometry/basis_across.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/geometry/epipolar.h"
-#include "plumbline/geometry/symmetric_system.h"
+#include "plumbline/geometry/se3.h"
+#include "plumbline/geometry/symmetric_matrix.h"
 #include "plumbline/solvers/epipolar_cost.h"
 
 #include <algorithm>

@@ -2,23 +2,158 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/relative_pose.h"
 
-#include "plumbline/base/chi2.h"
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/random.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/base/units.h"
 #include "plumbline/geometry/epipolar.h"
+#include "plumbline/geometry/symmetric_matrix.h"
 #include "plumbline/solvers/epipolar_cost.h"
+#include "plumbline/solvers/essential.h"
+#include "plumbline/solvers/homography.h"
 #include "plumbline/solvers/pose_refinement.h"
 #include "plumbline/solvers/ransac.h"
-#include "plumbline/solvers/relative_pose_problems.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 
 namespace plumbline {
 namespace {
+
+// Two-view problems for RANSAC (ransac.h). They refer to the matches, which must outlive them.
+
+// Essential matrices of norm 1 that differ by less than this lead to the same pose when refined.
+constexpr double kSameEssential = 0.05;
+// The model of a sample is off by many times the noise, and not all of its best inliers are
+// inliers.
+constexpr PoseRefinementOptions kFirstImprovement{
+    .max_iterations = 3, .loss_scale = 15, .covariance = false};
+constexpr PoseRefinementOptions kSecondImprovement{.max_iterations = 2, .covariance = false};
+constexpr std::size_t kEnoughForFirst = 100;  // matches that are enough for the first improvement
+
+template <std::size_t kSize>
+std::array<RayMatch, kSize> Pick(std::span<const RayMatch> matches,
+                                 const std::array<std::size_t, kSize>& sample) {
+  std::array<RayMatch, kSize> picked;
+  for (std::size_t i = 0; i < kSize; ++i) picked[i] = matches[sample[i]];
+  return picked;
+}
+
+double Ratio(std::ptrdiff_t part, std::size_t all) {
+  return static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1));
+}
+
+// Essential matrices, Frobenius norm 1.
+class EssentialProblem {
+ public:
+  using Model = Eigen::Matrix3d;
+
+  explicit EssentialProblem(std::span<const RayMatch> matches) : matches_(matches), cost_(matches) {
+    const std::size_t step = std::max<std::size_t>(1, matches.size() / kEnoughForFirst);
+    for (std::size_t i = 0; i < matches.size(); i += step) thinned_.push_back(matches[i]);
+  }
+
+  std::size_t size() const { return matches_.size(); }
+  double Cost(const Model& E, double limit) const {
+    return cost_.Truncated(E, kChi2OneDof95, limit);
+  }
+  double InlierRatio(const Model& E) const {
+    return Ratio(cost_.CountBelow(E, kChi2OneDof95), size());
+  }
+  // Improves E by a few steps of RefinePose under a wide loss.
+  Model Improve(const Model& E) const {
+    // All four poses have the same cost.
+    const Rigid3 pose = PosesFromEssential(E).front();
+    const Rigid3 near = RefinePose(thinned_, pose, kFirstImprovement).b_from_a;
+    return EssentialMatrix(RefinePose(matches_, near, kSecondImprovement).b_from_a).normalized();
+  }
+  // Returns true if both are equal up to sign.
+  bool Same(const Model& E, const Model& F) const {
+    return std::min((E - F).squaredNorm(), (E + F).squaredNorm()) < kSameEssential * kSameEssential;
+  }
+
+ protected:
+  std::span<const RayMatch> matches_;
+
+ private:
+  EpipolarCost cost_;
+  std::vector<RayMatch> thinned_;  // subset of the matches, enough to come near the solution
+};
+
+class FivePointProblem : public EssentialProblem {
+ public:
+  static constexpr std::size_t kSampleSize = 5;
+  using EssentialProblem::EssentialProblem;
+  std::vector<Model> Solve(const std::array<std::size_t, kSampleSize>& sample) const {
+    return EssentialFromFivePoints(Pick(matches_, sample));
+  }
+};
+
+class EightPointProblem : public EssentialProblem {
+ public:
+  static constexpr std::size_t kSampleSize = 8;
+  using EssentialProblem::EssentialProblem;
+  std::vector<Model> Solve(const std::array<std::size_t, kSampleSize>& sample) const {
+    const auto E = EssentialFromEightPoints(Pick(matches_, sample));
+    return E ? std::vector<Model>{*E} : std::vector<Model>{};
+  }
+};
+
+class HomographyProblem {
+ public:
+  using Model = Eigen::Matrix3d;
+  static constexpr std::size_t kSampleSize = 4;
+
+  explicit HomographyProblem(std::span<const RayMatch> matches) : matches_(matches) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const RayMatch& match : matches) sum += match.a.homogeneous();
+    if (!matches.empty()) mean_ray_ = sum.normalized();
+  }
+
+  std::size_t size() const { return matches_.size(); }
+  std::vector<Model> Solve(const std::array<std::size_t, kSampleSize>& sample) const {
+    const auto H = HomographyFromFourPoints(Pick(matches_, sample));
+    return H ? std::vector<Model>{*H} : std::vector<Model>{};
+  }
+  double Cost(const Model& H, double limit) const {
+    double sum = 0;
+    for (const RayMatch& match : matches_) {
+      sum += std::min(SquaredTransferError(H, match), kChi2TwoDof95);
+      if (sum > limit) break;
+    }
+    return sum;
+  }
+  double InlierRatio(const Model& H) const {
+    const auto count = std::count_if(matches_.begin(), matches_.end(), [&](const RayMatch& m) {
+      return SquaredTransferError(H, m) < kChi2TwoDof95;
+    });
+    return Ratio(count, size());
+  }
+  // Improves H by least squares on the inliers.
+  Model Improve(const Model& H) const {
+    Model improved = H;
+    for (int i = 0; i < 2; ++i) {
+      std::vector<RayMatch> inliers;
+      for (const RayMatch& match : matches_) {
+        if (SquaredTransferError(improved, match) < 2 * kChi2TwoDof95) inliers.push_back(match);
+      }
+      const auto fitted = HomographyFromPoints(inliers, &improved);
+      if (!fitted) break;
+      improved = *fitted;
+    }
+    return improved;
+  }
+  bool Same(const Model&, const Model&) const { return true; }  // only the best model is kept
+
+  Eigen::Vector3d MeanRay() const { return mean_ray_; }  // mean ray of camera a
+
+ private:
+  std::span<const RayMatch> matches_;
+  Eigen::Vector3d mean_ray_ = Eigen::Vector3d::UnitZ();
+};
 
 constexpr double kSameRotation = 0.3 * kDegree;
 constexpr double kSameDirection = 3 * kDegree;
@@ -197,6 +332,139 @@ std::vector<RelativePoseHypothesis> EstimateRelativePoses(std::span<const RayMat
     AddHomographies(matches, options, rng, list);
   }
   return list.Take();
+}
+
+namespace {
+
+constexpr int kMostSamples = 500;
+
+Eigen::Vector3d PlaneNormal(const Eigen::Quaterniond& b_from_a, const RayMatch& match) {
+  return (b_from_a * match.a.homogeneous()).cross(match.b.homogeneous());
+}
+
+// The eight-point algorithm without local optimization.
+class PlainEightPointProblem : public EightPointProblem {
+ public:
+  using EightPointProblem::EightPointProblem;
+  Model Improve(const Model& E) const { return E; }
+};
+
+// The direction of the translation with the rotation known, from samples of two.
+class TwoPointProblem {
+ public:
+  using Model = Eigen::Vector3d;
+  static constexpr std::size_t kSampleSize = 2;
+
+  TwoPointProblem(std::span<const RayMatch> matches, const Eigen::Quaterniond& b_from_a)
+      : matches_(matches), b_from_a_(b_from_a), cost_(matches) {}
+
+  std::size_t size() const { return matches_.size(); }
+  std::vector<Model> Solve(const std::array<std::size_t, kSampleSize>& sample) const {
+    const std::array<RayMatch, 2> pair = {matches_[sample[0]], matches_[sample[1]]};
+    const auto t = TranslationFromTwoPoints(b_from_a_, pair);
+    return t ? std::vector<Model>{*t} : std::vector<Model>{};
+  }
+  double Cost(const Model& t, double limit) const {
+    return cost_.Truncated(EssentialMatrix({b_from_a_, t}), kChi2OneDof95, limit);
+  }
+  double InlierRatio(const Model& t) const {
+    return cost_.CountBelow(EssentialMatrix({b_from_a_, t}), kChi2OneDof95) /
+           static_cast<double>(matches_.size());
+  }
+  Model Improve(const Model& t) const { return t; }
+  bool Same(const Model& a, const Model& b) const { return a.cross(b).norm() < 1e-3; }
+
+ private:
+  std::span<const RayMatch> matches_;
+  Eigen::Quaterniond b_from_a_;
+  EpipolarCost cost_;
+};
+
+std::vector<RayMatch> Near(const Eigen::Matrix3d& essential, std::span<const RayMatch> matches) {
+  std::vector<RayMatch> near;
+  for (const RayMatch& match : matches) {
+    if (IsNearEpipolarLines(essential, match)) near.push_back(match);
+  }
+  return near;
+}
+
+long CountInFront(const Rigid3& pose, std::span<const RayMatch> matches) {
+  return std::count_if(matches.begin(), matches.end(), [&](const RayMatch& match) {
+    return IsInFront(pose, match);
+  });
+}
+
+std::optional<Eigen::Quaterniond> RotationFromEightPoints(std::span<const RayMatch> matches,
+                                                          Rng& rng) {
+  const PlainEightPointProblem problem(matches);
+  const auto found = Ransac<PlainEightPointProblem>(problem, kMostSamples, 1).Run({}, rng);
+  if (found.empty()) return std::nullopt;
+  std::vector<RayMatch> inliers = Near(found.front().model, matches);
+  const Eigen::Matrix3d E = EssentialFromEightPoints(inliers).value_or(found.front().model);
+  const auto poses = PosesFromEssential(E);
+  const auto best = std::max_element(poses.begin(), poses.end(), [&](const auto& a, const auto& b) {
+    return CountInFront(a, inliers) < CountInFront(b, inliers);
+  });
+  return best->rotation;
+}
+
+// Least squares on t . (R x_a x x_b) over the matches that fit the direction `start`.
+Eigen::Vector3d TranslationFromInliers(std::span<const RayMatch> matches,
+                                       const Eigen::Quaterniond& b_from_a,
+                                       const Eigen::Vector3d& start) {
+  const Eigen::Matrix3d E = EssentialMatrix({b_from_a, start});
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  int inliers = 0;
+  for (const RayMatch& match : matches) {
+    if (!IsNearEpipolarLines(E, match)) continue;
+    const Eigen::Vector3d row = PlaneNormal(b_from_a, match);
+    normal += row * row.transpose();
+    ++inliers;
+  }
+  if (inliers < 2) return start;
+  const Eigen::Vector3d t = EigenpairsOf<3>(normal).vectors.col(0);
+  return t.dot(start) < 0 ? Eigen::Vector3d(-t) : t;
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector3d> TranslationFromTwoPoints(const Eigen::Quaterniond& b_from_a,
+                                                        std::span<const RayMatch, 2> matches) {
+  const Eigen::Vector3d first = PlaneNormal(b_from_a, matches[0]);
+  const Eigen::Vector3d second = PlaneNormal(b_from_a, matches[1]);
+  const Eigen::Vector3d t = first.cross(second);
+  if (!(t.norm() > 1e-9 * first.norm() * second.norm())) return std::nullopt;
+  return t.normalized();
+}
+
+bool IsNearEpipolarLines(const Eigen::Matrix3d& essential, const RayMatch& match) {
+  const Eigen::Vector3d in_b = essential * match.a.homogeneous();
+  const Eigen::Vector3d in_a = essential.transpose() * match.b.homogeneous();
+  const double error = match.b.homogeneous().dot(in_b);
+  const auto is_near = [&](const Eigen::Vector3d& line, double sigma) {
+    return error * error < kChi2OneDof95 * sigma * sigma * line.head<2>().squaredNorm();
+  };
+  return is_near(in_b, match.sigma_b) && is_near(in_a, match.sigma_a);
+}
+
+std::optional<PairwisePose> EstimatePairwisePose(std::span<const RayMatch> matches, Rng& rng) {
+  if (matches.size() < EightPointProblem::kSampleSize) return std::nullopt;
+  const auto rotation = RotationFromEightPoints(matches, rng);
+  if (!rotation) return std::nullopt;
+  const TwoPointProblem problem(matches, *rotation);
+  const auto found = Ransac<TwoPointProblem>(problem, kMostSamples, 1).Run({}, rng);
+  if (found.empty()) return std::nullopt;
+  PairwisePose pose;
+  pose.b_from_a = {*rotation, TranslationFromInliers(matches, *rotation, found.front().model)};
+  Rigid3 opposite = pose.b_from_a;
+  opposite.translation *= -1;
+  const Eigen::Matrix3d E = EssentialMatrix(pose.b_from_a);
+  const std::vector<RayMatch> inliers = Near(E, matches);
+  if (CountInFront(opposite, inliers) > CountInFront(pose.b_from_a, inliers)) {
+    pose.b_from_a = opposite;
+  }
+  for (const RayMatch& match : matches) pose.is_inlier.push_back(IsNearEpipolarLines(E, match));
+  return pose;
 }
 
 }  // namespace plumbline

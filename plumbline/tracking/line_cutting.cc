@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/tracking/line_cutting.h"
 
-#include "plumbline/base/chi2.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/line_cutting/cut_lines.h"
-#include "plumbline/matching/line_information.h"
-#include "plumbline/matching/uncertain_line.h"
+#include "plumbline/matching/measurements.h"
 #include "plumbline/optimization/residuals.h"
-#include "plumbline/optimization/uncertain_point.h"
 
 #include <algorithm>
 #include <limits>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/tracking/pose_estimation.h"
 
-#include "plumbline/base/median.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/tracking/line_cutting.h"
 
 #include <algorithm>

@@ -191,7 +191,7 @@ LandmarkMatches PoseSearch::MatchAppearance(const Frame& frame,
   LandmarkMatches result(frame.points.size(), frame.lines.size());
   const auto point_matches = MatchPoints(
       reference.features().points, frame.features().points, {.max_distance = 60, .ratio = 0.8});
-  for (const PointMatch& match : point_matches) {
+  for (const FeatureMatch& match : point_matches) {
     const auto a = static_cast<std::size_t>(match.a);
     const auto point =
         PointOf(InSnapshot(reference.points[a], snapshot), reference, a, kWorstDepthSigma);
@@ -202,7 +202,7 @@ LandmarkMatches PoseSearch::MatchAppearance(const Frame& frame,
   }
   const auto line_matches = MatchLines(
       reference.features().lines, frame.features().lines, LineMatchingOf(estimator_.lines()));
-  for (const LineMatch& match : line_matches) {
+  for (const FeatureMatch& match : line_matches) {
     const auto a = static_cast<std::size_t>(match.a);
     const auto line =
         LineOf(InSnapshot(reference.lines[a], snapshot), reference, a, kWorstDepthSigma);

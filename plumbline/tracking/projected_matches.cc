@@ -3,8 +3,8 @@
 #include "plumbline/tracking/projected_matches.h"
 
 #include "plumbline/geometry/trimming.h"
+#include "plumbline/matching/measurements.h"
 #include "plumbline/matching/projection_search.h"
-#include "plumbline/matching/uncertain_line.h"
 #include "plumbline/optimization/pose_solver.h"
 #include "plumbline/tracking/projected_ends.h"
 

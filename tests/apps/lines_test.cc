@@ -4,7 +4,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/obj_lines.h"
-#include "plumbline/io/ply.h"
+#include "plumbline/io/geometry_files.h"
 #include "plumbline/io/trajectory_io.h"
 #include "worlds/true_world.h"
 

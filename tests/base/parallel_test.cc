@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/parallel.h"
 
-#include "plumbline/base/helper_thread.h"
-
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -15,7 +15,87 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
+
 namespace {
+
+// Lets a caller wait until the helper has begun.
+class Started {
+ public:
+  void Set() {
+    started_ = true;
+    started_.notify_one();
+  }
+  void Wait() { started_.wait(false); }
+
+ private:
+  std::atomic<bool> started_{false};
+};
+
+TEST(HelperThread, WorksInItsOwnThreadAsOftenAsItIsAsked) {
+  HelperThread helper;
+  for (int i = 0; i < 100; ++i) {
+    std::thread::id id;
+    Started started;
+    ASSERT_TRUE(helper.Ask([&] {
+      started.Set();
+      id = std::this_thread::get_id();
+    }));
+    started.Wait();
+    helper.Finish();
+    EXPECT_NE(id, std::thread::id());
+    EXPECT_NE(id, std::this_thread::get_id());
+  }
+}
+
+TEST(HelperThread, HelpsOneCallerAtATime) {
+  HelperThread helper;
+  int done = 0;
+  Started started;
+  ASSERT_TRUE(helper.Ask([&] {
+    started.Set();
+    ++done;
+  }));
+  EXPECT_FALSE(helper.Ask([&] { done += 10; })) << "the first caller has not finished yet";
+  started.Wait();
+  helper.Finish();
+  EXPECT_EQ(done, 1);
+}
+
+TEST(HelperThread, DoesNotBeginWhatHasBeenFinished) {
+  HelperThread helper;
+  for (int i = 0; i < 1000; ++i) {
+    // After Finish the counter is gone: whoever touched it then would be found by the sanitizers.
+    auto begun = std::make_unique<std::atomic<int>>(0);
+    ASSERT_TRUE(helper.Ask([count = begun.get()] { ++*count; }));
+    helper.Finish();
+    EXPECT_LE(*begun, 1);
+  }
+}
+
+TEST(HelperThread, SharesTheCallsOfALoop) {
+  HelperThread helper;
+  for (const int n : {-1, 0, 1, 2, 1000}) {
+    std::vector<int> calls(static_cast<std::size_t>(std::max(n, 0)));
+    ParallelFor(n, &helper, [&](int i) { ++calls[static_cast<std::size_t>(i)]; });
+    EXPECT_EQ(calls, std::vector<int>(calls.size(), 1));
+  }
+  HelperThread* const none = nullptr;
+  ParallelFor(3, none, [caller = std::this_thread::get_id()](int) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+  });
+}
+
+TEST(HelperThread, HelpsAgainAfterACallHasThrown) {
+  HelperThread helper;
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    EXPECT_THROW(ParallelFor(64,
+                             &helper,
+                             [](int i) {
+                               if (i % 7 == 6) throw std::runtime_error("no");
+                             }),
+                 std::runtime_error);
+  }
+}
 
 TEST(ParallelMap, ResultDoesNotDependOnThreads) {
   const auto square = [](int i) { return i * i; };
@@ -69,4 +149,5 @@ TEST(ParallelFor, RethrowsTheExceptionOfTheLeastIndex) {
 }
 
 }  // namespace
+
 }  // namespace plumbline

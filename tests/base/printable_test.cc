@@ -3,10 +3,12 @@
 #include "plumbline/base/printable.h"
 
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 namespace plumbline {
+
 namespace {
 
 TEST(Printable, LeavesTextAsItIs) {
@@ -58,5 +60,58 @@ TEST(InQuotes, PutsTheTextInQuotes) {
   EXPECT_EQ(InQuotes("a\n"), "'a\\n'");
 }
 
+TEST(EscapeHtml, LeavesNothingThatHtmlWouldRead) {
+  EXPECT_EQ(EscapeHtml("<b title=\"x\">'1 & 2'</b>"),
+            "&lt;b title=&quot;x&quot;&gt;&#39;1 &amp; 2&#39;&lt;/b&gt;");
+  EXPECT_EQ(EscapeHtml("plain text, ü"), "plain text, ü");
+}
+
+TEST(EditDistance, CountsInsertionsDeletionsReplacementsSwaps) {
+  EXPECT_EQ(EditDistance("", ""), 0U);
+  EXPECT_EQ(EditDistance("abc", ""), 3U);
+  EXPECT_EQ(EditDistance("kitten", "sitting"), 3U);
+  EXPECT_EQ(EditDistance("huber_px", "hubber_px"), 1U);
+  EXPECT_EQ(EditDistance("seed", "sede"), 1U);
+  EXPECT_EQ(EditDistance("ab", "ba"), 1U);
+  EXPECT_EQ(EditDistance("abcd", "badc"), 2U);
+  EXPECT_EQ(EditDistance("ca", "abc"), 3U);
+}
+
+TEST(NearestName, FindsTheMisspelledName) {
+  const std::vector<std::string> names = {"slam.mode", "slam.seed", "ba.huber_px"};
+  EXPECT_EQ(NearestName("slam.sede", names), "slam.seed");
+  EXPECT_EQ(NearestName("ba.huberpx", names), "ba.huber_px");
+}
+
+TEST(NearestName, FindsANameWithoutItsGroup) {
+  const std::vector<std::string> names = {"slam.seed", "slam.mode", "ba.huber_px"};
+  EXPECT_EQ(NearestName("huber_px", names), "ba.huber_px");
+}
+
+TEST(NearestName, FindsANameOfTheMisspelledGroup) {
+  const std::vector<std::string> names = {
+      "slam.seed", "tracking.reference", "tracking.min_initial"};
+  EXPECT_EQ(NearestName("trackng.foo", names), "tracking.reference");
+  EXPECT_EQ(NearestName("tracking.initial", names), "tracking.min_initial");
+  EXPECT_EQ(NearestName("other.foo", names), std::nullopt);
+  EXPECT_EQ(NearestName("foo", names), std::nullopt);
+}
+
+TEST(NearestName, IsSilentWhenNothingIsNear) {
+  const std::vector<std::string> names = {"slam.seed", "slam.mode"};
+  EXPECT_EQ(NearestName("lines.weighting", names), std::nullopt);
+}
+
+TEST(NearestName, TakesNoTimeForNamesThatAreNone) {
+  const std::vector<std::string> names(1000, "slam.seed");
+  EXPECT_EQ(NearestName(std::string(10'000'000, 'x'), names), std::nullopt);
+}
+
+TEST(NearestName, TakesTheFirstOfEquallyNear) {
+  const std::vector<std::string> names = {"abd", "abe"};
+  EXPECT_EQ(NearestName("abc", names), "abd");
+}
+
 }  // namespace
+
 }  // namespace plumbline

@@ -123,7 +123,7 @@ TEST(ExtractFeatures, WorksOnASingleImageAndWithDepth) {
   EXPECT_EQ(mono.points.size(), rgbd.points.size());
   ASSERT_EQ(mono.point_disparity.size(), mono.points.size());
   for (const std::optional<Disparity>& d : mono.point_disparity) EXPECT_FALSE(d);
-  for (const std::optional<RightLine>& right : mono.line_right) EXPECT_FALSE(right);
+  for (const std::optional<MeasuredSegment>& right : mono.line_right) EXPECT_FALSE(right);
 }
 
 TEST(ExtractFeatures, SurvivesFlatAndTinyImagesAndRefusesWrongSizes) {

@@ -5,11 +5,82 @@
 #include "plumbline/features/single_precision.h"
 
 #include "tests/support/random_geometry.h"
+#include "tests/support/single_camera.h"
+#include <cmath>
 #include <limits>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 namespace plumbline {
+
+namespace lens_correction_test {
+
+using Eigen::Vector2d;
+
+TEST(LensCorrection, MovesTheSideOfTheImageByWhatItSays) {
+  const RectifiedCamera camera = OneCamera();
+  const LensCorrection correction(camera, 2);
+  EXPECT_NEAR((correction.At({600, 90}) - Vector2d(598, 90)).norm(), 0, 1e-12);
+  EXPECT_NEAR((correction.At({0, 90}) - Vector2d(2, 90)).norm(), 0, 1e-12);
+  EXPECT_NEAR((correction.At({300, 90}) - Vector2d(300, 90)).norm(), 0, 1e-12);
+}
+
+TEST(LensCorrection, ScaleIsTheRootOfTheChangeOfArea) {
+  const RectifiedCamera camera = OneCamera();
+  const LensCorrection correction(camera, -4);
+  constexpr double kStep = 1e-4;
+  for (const Vector2d& px : {Vector2d(300, 90), Vector2d(500, 40), Vector2d(20, 170)}) {
+    Eigen::Matrix2d J;
+    for (int k = 0; k < 2; ++k) {
+      const Vector2d step = kStep * Vector2d::Unit(k);
+      J.col(k) = (correction.At(px + step) - correction.At(px - step)) / (2 * kStep);
+    }
+    EXPECT_NEAR(correction.ScaleAt(px), std::sqrt(J.determinant()), 1e-7);
+  }
+}
+
+TEST(LensCorrection, IsNothingByDefault) {
+  EXPECT_EQ(LensCorrection().At({500, 40}), Vector2d(500, 40));
+  EXPECT_EQ(LensCorrection().ScaleAt({500, 40}), 1);
+  EXPECT_EQ(LensCorrection().border_px(), 0);
+}
+
+TEST(LensCorrection, IsPlausibleUpToThreePercentOfTheWidth) {
+  EXPECT_TRUE(LensCorrection().IsPlausible());
+  EXPECT_TRUE(LensCorrection(OneCamera(), -17).IsPlausible());
+  EXPECT_FALSE(LensCorrection(OneCamera(), 19).IsPlausible());
+  EXPECT_FALSE(LensCorrection(OneCamera(), std::numeric_limits<double>::infinity()).IsPlausible());
+}
+
+}  // namespace lens_correction_test
+
+namespace {
+
+TEST(StereoCorrection, IsAQuadraticPolynomialAroundThePrincipalPoint) {
+  const RectifiedCamera camera = TestCamera();
+  Vector6d k;
+  k << 0.1, -0.2, 0.3, -0.4, 0.5, -0.6;
+  const StereoCorrection correction(camera, k);
+  EXPECT_DOUBLE_EQ(correction.At({camera.cx, camera.cy}), 0.1);
+  const double unit = 0.5 * camera.width;
+  const double x = 0.7, y = -0.3;
+  EXPECT_NEAR(correction.At({camera.cx + x * unit, camera.cy + y * unit}),
+              0.1 - 0.2 * x + 0.3 * y - 0.4 * x * x + 0.5 * x * y - 0.6 * y * y,
+              1e-12);
+  EXPECT_NEAR(StereoCorrection::Terms(camera, {camera.cx + x * unit, camera.cy + y * unit}).dot(k),
+              correction.At({camera.cx + x * unit, camera.cy + y * unit}),
+              1e-12);
+}
+
+TEST(StereoCorrection, IsNothingByDefault) {
+  const StereoCorrection none;
+  EXPECT_EQ(none.At({100, 50}), 0);
+  EXPECT_EQ(none, StereoCorrection());
+}
+
+}  // namespace
+
 namespace feature_correction_test {
 
 TEST(FeatureCorrection, TakesItselfOutOfDisparitiesAndRightLines) {
@@ -22,7 +93,7 @@ TEST(FeatureCorrection, TakesItselfOutOfDisparitiesAndRightLines) {
   features.points[0].px = {300, 200};
   features.point_disparity = {Disparity{20, 1}, std::nullopt};
   features.lines.resize(1);
-  features.line_right = {RightLine{{{200, 100}, {210, 180}}, 1}};
+  features.line_right = {MeasuredSegment{{{200, 100}, {210, 180}}, 1}};
   Correct(none, half, features);
   EXPECT_DOUBLE_EQ(features.point_disparity[0]->px, 19.5);
   EXPECT_FALSE(features.point_disparity[1]);
@@ -46,7 +117,7 @@ Features MeasuredAnywhere(const RectifiedCamera& camera, Rng& rng) {
     f.lines.emplace_back();
     f.lines.back().segment = {start + RandomVector<2>(rng, 30), start};
     f.lines.back().sigma_px = f.points.back().sigma_px = rng.Uniform(0.3, 4);
-    f.line_right.emplace_back(RightLine{{start, start + RandomVector<2>(rng, 60)}, 0.5});
+    f.line_right.emplace_back(MeasuredSegment{{start, start + RandomVector<2>(rng, 60)}, 0.5});
   }
   RoundToSinglePrecision(f);
   return f;
@@ -112,4 +183,5 @@ TEST(FeatureCorrection, IsPlausibleWhereBothPartsAre) {
 }
 
 }  // namespace feature_correction_test
+
 }  // namespace plumbline

@@ -28,7 +28,7 @@ TEST(FindLines, MakesLinesThatAnotherImageKnowsAgain) {
   ASSERT_EQ(moved.size(), 5U);
   const auto pairs = MatchLines(lines, moved, {});
   ASSERT_EQ(pairs.size(), 5U);
-  for (const LineMatch& pair : pairs) {
+  for (const FeatureMatch& pair : pairs) {
     const double shift = moved[static_cast<std::size_t>(pair.b)].segment.Midpoint().x() -
                          lines[static_cast<std::size_t>(pair.a)].segment.Midpoint().x();
     EXPECT_NEAR(shift, 7, 0.2);

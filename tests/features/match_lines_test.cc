@@ -72,7 +72,7 @@ TEST(StereoLines, OfFlatLinesMatchButGiveNoDepth) {
     return MatchStereoLines(
         camera, left, {Line({200 - dx, 100 + dy}, {300 - dx, 102 + dy}, 0xff)}, {})[0];
   };
-  const std::optional<RightLine> match = right(30, 0.5);
+  const std::optional<MeasuredSegment> match = right(30, 0.5);
   ASSERT_TRUE(match);
   EXPECT_FALSE(LineEndDisparities(left[0], *match));
   EXPECT_FALSE(right(30, 8));
@@ -82,7 +82,7 @@ TEST(StereoLines, OfFlatLinesMatchButGiveNoDepth) {
 TEST(LineEndDisparities, AreMeasuredOnTheRowsOfTheLeftEnds) {
   const LineFeature left = Line({200, 100}, {220, 200}, 0);
   // x = 180 + (y - 100) / 10, seen from row 80 to row 140 only.
-  const RightLine right{{{178, 80}, {184, 140}}, 0.5};
+  const MeasuredSegment right{{{178, 80}, {184, 140}}, 0.5};
   const auto d = LineEndDisparities(left, right);
   ASSERT_TRUE(d);
   EXPECT_NEAR(d->start.px, 20, 1e-9);

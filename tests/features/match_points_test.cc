@@ -46,7 +46,7 @@ TEST(MatchPoints, FindsTheNearestOfAllAsPairByPair) {
   auto b = RandomPoints(61);
   for (std::size_t i = 0; i < b.size(); ++i) FlipBits(static_cast<int>(3 * i % 50), &b[i]);
   const auto matches = MatchPoints(a, b, {.max_distance = 256, .ratio = 1});
-  for (const PointMatch& match : matches) {
+  for (const FeatureMatch& match : matches) {
     const auto& query = a[static_cast<std::size_t>(match.a)].descriptor;
     int best = 257;
     int index = -1;

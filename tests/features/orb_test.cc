@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/features/orb.h"
 
-#include "plumbline/base/median.h"
+#include "plumbline/base/statistics.h"
 
 #include "tests/features/render.h"
 #include <algorithm>

@@ -10,8 +10,8 @@
 namespace plumbline {
 namespace {
 
-std::vector<Segment2> Draw(const GrayImage& image, const SegmentDrawingLimits& limits = {}) {
-  return DrawSegments(ComputeGradient(image, 1), limits);
+std::vector<Segment2> Draw(const GrayImage& image, double min_length = 15) {
+  return DrawSegments(ComputeGradient(image, 1), min_length, 2);
 }
 
 // White noise on top.
@@ -121,7 +121,7 @@ TEST(DrawSegments, FollowsACircleOnlyInShortPieces) {
 TEST(DrawSegments, FindsNothingInNoise) {
   for (const double sigma : {1.0, 4.0, 10.0, 25.0}) {
     const GrayImage image = Noisy(GrayImage(320, 240, 120), sigma, 11);
-    EXPECT_LE(Draw(image, {.min_length = 22}).size(), 1U) << sigma;
+    EXPECT_LE(Draw(image, 22).size(), 1U) << sigma;
   }
 }
 
@@ -131,8 +131,8 @@ TEST(DrawSegments, FindsNothingInFlatAndTinyImages) {
     for (int height = 1; height <= 20; ++height) {
       const GrayImage image = Render(
           width, height, [](const Eigen::Vector2d& p) { return p.x() > 4.3 ? 200.0 : 40.0; });
-      EXPECT_TRUE(Draw(image, {.min_length = 21}).empty()) << width << " x " << height;
-      Draw(image, {.min_length = 1});
+      EXPECT_TRUE(Draw(image, 21).empty()) << width << " x " << height;
+      Draw(image, 1);
     }
   }
 }

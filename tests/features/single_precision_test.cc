@@ -22,7 +22,7 @@ TEST(SinglePrecision, RoundsAllThatWasMeasured) {
   line.segment = {place, 2 * place};
   line.sigma_px = line.response = third;
   f.lines = {line, line};
-  f.line_right = {std::nullopt, RightLine{{place, 2 * place}, third}};
+  f.line_right = {std::nullopt, MeasuredSegment{{place, 2 * place}, third}};
   RoundToSinglePrecision(f);
   const double rounded = static_cast<double>(static_cast<float>(third));
   const Eigen::Vector2d at = place.cast<float>().cast<double>();

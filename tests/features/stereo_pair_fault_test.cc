@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/features/stereo_pair_fault.h"
-
 #include "plumbline/base/random.h"
+#include "plumbline/features/stereo_pair_check.h"
 
 #include "tests/features/stereo_pair_scene.h"
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/base/helper_thread.h"
+#include "plumbline/base/parallel.h"
 #include "plumbline/features/match_points.h"
 #include "plumbline/features/orb.h"
 

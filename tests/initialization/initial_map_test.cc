@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/initial_map.h"
 
-#include "plumbline/base/median.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/base/units.h"
 #include "plumbline/matching/measurements.h"
 #include "plumbline/optimization/residuals.h"

@@ -87,7 +87,7 @@ TEST_F(ReferenceMatching, OrientationThatDoesNotGoWithTheRollIsRejected) {
   }
   const auto matches = MatchToReference(a.indexed->features, turned);
   EXPECT_GT(matches.points.size(), 100U);
-  for (const PointMatch& match : matches.points) EXPECT_NE(match.b % 5, 0);
+  for (const FeatureMatch& match : matches.points) EXPECT_NE(match.b % 5, 0);
 }
 
 TEST_F(ReferenceMatching, NothingInCommonGivesNothing) {

@@ -3,7 +3,7 @@
 #include "plumbline/io/keyframe_images.h"
 
 #include "plumbline/features/extractor.h"
-#include "plumbline/image/box_filter.h"
+#include "plumbline/image/filters.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/io/png.h"
 

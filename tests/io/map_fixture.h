@@ -36,7 +36,7 @@ inline Features ThreePointsAndTwoLines(std::int64_t id) {
     line.segment = {{1, 2}, {30, 4.125}};
     line.descriptor = {static_cast<std::uint64_t>(id), static_cast<std::uint64_t>(i), 5U, 6U};
     f.lines.push_back(line);
-    f.line_right.push_back(i == 0 ? std::optional(RightLine{{{0, 2}, {29, 4}}, 0.75})
+    f.line_right.push_back(i == 0 ? std::optional(MeasuredSegment{{{0, 2}, {29, 4}}, 0.75})
                                   : std::nullopt);
   }
   return f;

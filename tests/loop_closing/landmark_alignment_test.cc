@@ -3,7 +3,7 @@
 #include "plumbline/loop_closing/landmark_alignment.h"
 
 #include "plumbline/map/motion.h"
-#include "plumbline/matching/line_information.h"
+#include "plumbline/matching/measurements.h"
 
 #include "tests/support/random_geometry.h"
 #include <algorithm>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/map/map.h"
-#include "plumbline/matching/line_information.h"
+#include "plumbline/matching/measurements.h"
 
 #include "tests/support/synthetic_world.h"
 #include <algorithm>

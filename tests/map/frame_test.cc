@@ -56,7 +56,7 @@ TEST(WithRightLines, GivesThemTheCorrectionOfTheRest) {
   measured.line_right.resize(2);
   const FeatureCorrection half{{TestCamera(), 0.5 * Vector6d::Unit(0)}};
   const auto without = IndexFeatures(TestCamera(), measured, half);
-  RightLine right;
+  MeasuredSegment right;
   right.segment = {{100, 50}, {120, 90}};
   const auto whole = WithRightLines(without, {right, std::nullopt});
   EXPECT_FALSE(without->features.line_right[0]);

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/parallel_lines.h"
 
-#include "plumbline/base/chi2.h"
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/random.h"
-#include "plumbline/geometry/basis_across.h"
+#include "plumbline/base/statistics.h"
+#include "plumbline/geometry/se3.h"
 
 #include "tests/mapping/vertical_lines.h"
 #include "tests/support/true_map.h"

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/matching/landmark_from_frame.h"
 
-#include "plumbline/matching/line_information.h"
 #include "plumbline/matching/measurements.h"
-#include "plumbline/matching/uncertain_line.h"
 
 #include <cmath>
 #include <memory>
@@ -29,7 +27,7 @@ Frame FrameOf(const std::vector<Segment2>& left,
   auto indexed = std::make_shared<FrameFeatures>();
   for (std::size_t i = 0; i < left.size(); ++i) {
     indexed->features.lines.push_back({left[i], 0.5});
-    indexed->features.line_right.push_back(right[i] ? std::optional(RightLine{*right[i], 0.5})
+    indexed->features.line_right.push_back(right[i] ? std::optional(MeasuredSegment{*right[i], 0.5})
                                                     : std::nullopt);
   }
   Frame frame;

@@ -3,7 +3,6 @@
 #include "plumbline/matching/measurements.h"
 
 #include "plumbline/matching/landmark_from_frame.h"
-#include "plumbline/matching/line_information.h"
 #include "plumbline/optimization/residuals.h"
 
 #include "tests/matching/line_scene.h"
@@ -30,7 +29,7 @@ TEST(Measurements, CarryTheFeaturesNoise) {
   features.points.push_back({.px = {10, 20}, .sigma_px = 1.4});
   features.point_disparity.push_back(Disparity{7, 0.2});
   features.lines.push_back({.segment = {{1, 2}, {3, 4}}, .sigma_px = 0.6});
-  features.line_right.push_back(RightLine{{{0, 2}, {2, 4}}, 0.9});
+  features.line_right.push_back(MeasuredSegment{{{0, 2}, {2, 4}}, 0.9});
   const PointMeasurement point = MeasurePoint(features, 0);
   EXPECT_EQ(point.px, Eigen::Vector2d(10, 20));
   EXPECT_EQ(point.sigma_px, 1.4);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/optimization/elimination_plan.h"
+#include "plumbline/optimization/multifrontal_cholesky.h"
 
 #include "tests/optimization/random_scene.h"
 #include <algorithm>

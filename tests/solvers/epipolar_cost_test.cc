@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/epipolar_cost.h"
 
-#include "plumbline/base/chi2.h"
+#include "plumbline/base/statistics.h"
 #include "plumbline/geometry/epipolar.h"
 
 #include "tests/solvers/two_view_scene.h"

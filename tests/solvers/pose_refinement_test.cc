@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/pose_refinement.h"
 
-#include "plumbline/geometry/basis_across.h"
 #include "plumbline/geometry/epipolar.h"
+#include "plumbline/geometry/se3.h"
 #include "plumbline/solvers/epipolar_cost.h"
 
 #include "tests/solvers/two_view_scene.h"

@@ -147,9 +147,9 @@ inline void AddLine(const SyntheticWorld& world,
   feature.segment = Noisy(*left, sensor.noise * feature.sigma_px, rng);
   feature.descriptor = Flipped(line.descriptor, sensor.flipped_bits, rng);
   features.lines.push_back(feature);
-  std::optional<RightLine> in_right;
+  std::optional<MeasuredSegment> in_right;
   if (sensor.depth && right && right->Length() >= 25) {
-    in_right = RightLine{Noisy(*right, sensor.noise * 0.4, rng), 0.4};
+    in_right = MeasuredSegment{Noisy(*right, sensor.noise * 0.4, rng), 0.4};
   }
   features.line_right.push_back(in_right);
   frame.line_truth.push_back(index);

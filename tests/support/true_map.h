@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/geometry/line_triangulation.h"
+#include "plumbline/geometry/triangulation.h"
 #include "plumbline/map/map.h"
-#include "plumbline/matching/line_information.h"
+#include "plumbline/matching/measurements.h"
 
 #include "tests/support/synthetic_world.h"
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/tracking/projected_matches.h"
 
-#include "plumbline/matching/line_information.h"
+#include "plumbline/matching/measurements.h"
 
 #include "tests/matching/line_scene.h"
 #include "tests/tracking/cut_scene.h"

@@ -37,7 +37,7 @@ TEST(RayMatchesOf, AreThoseOfTheMatchedFeatures) {
   Rng rng(1);
   const SyntheticFrame a = Sense(world, PoseOnPath(0), {}, rng);
   const SyntheticFrame b = Sense(world, PoseOnPath(5), {}, rng);
-  const std::vector<PointMatch> matches{{3, 7, 0}};
+  const std::vector<FeatureMatch> matches{{3, 7, 0}};
   const auto rays = RayMatchesOf(world.camera, a.indexed->features, b.indexed->features, matches);
   ASSERT_EQ(rays.size(), 1U);
   const PointFeature& in_b = b.indexed->features.points[7];
