@@ -3,7 +3,7 @@
 #include "apps/command_inputs.h"
 
 #include "plumbline/geometry/calibration.h"
-#include "plumbline/live/live_source.h"
+#include "plumbline/io/live/live_source.h"
 
 #include <filesystem>
 #include <string>

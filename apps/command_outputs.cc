@@ -4,8 +4,8 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
-#include "plumbline/io/map_io.h"
-#include "plumbline/io/path_overlap.h"
+#include "plumbline/io/datasets/path_overlap.h"
+#include "plumbline/io/map_file/map_io.h"
 #include "plumbline/report/run_folder.h"
 
 #include <cstddef>

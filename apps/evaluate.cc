@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
-#include "plumbline/eval/trajectory_figure.h"
-#include "plumbline/io/dataset.h"
+#include "plumbline/io/datasets/dataset.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/report/error_options.h"
+#include "plumbline/report/trajectory_figure.h"
 
 #include "apps/command_line.h"
 #include "apps/commands.h"

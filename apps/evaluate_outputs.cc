@@ -4,7 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
-#include "plumbline/io/path_overlap.h"
+#include "plumbline/io/datasets/path_overlap.h"
 #include "plumbline/io/trajectory_io.h"
 
 #include "apps/command_outputs.h"

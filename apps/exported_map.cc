@@ -4,10 +4,10 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/io/atomic_file.h"
-#include "plumbline/io/colmap_model.h"
+#include "plumbline/io/export/colmap_model.h"
+#include "plumbline/io/export/nerfstudio.h"
+#include "plumbline/io/export/png.h"
 #include "plumbline/io/geometry_files.h"
-#include "plumbline/io/nerfstudio.h"
-#include "plumbline/io/png.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/map/keyframe_trajectory.h"
 #include "plumbline/report/run_files.h"

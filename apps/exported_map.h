@@ -4,9 +4,9 @@
 
 #include "plumbline/base/stop_check.h"
 #include "plumbline/geometry/trajectory.h"
-#include "plumbline/io/colmap_model.h"
-#include "plumbline/io/keyframe_images.h"
-#include "plumbline/io/map_io.h"
+#include "plumbline/io/export/colmap_model.h"
+#include "plumbline/io/export/keyframe_images.h"
+#include "plumbline/io/map_file/map_io.h"
 #include "plumbline/mapping/line_map.h"
 
 #include "apps/command_outputs.h"

@@ -3,7 +3,7 @@
 #include "apps/frame_input.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/live/call_or_abandon.h"
+#include "plumbline/io/live/call_or_abandon.h"
 
 #include <algorithm>
 #include <thread>

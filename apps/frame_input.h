@@ -3,9 +3,9 @@
 #pragma once
 
 #include "plumbline/image/image.h"
-#include "plumbline/io/dataset.h"
-#include "plumbline/live/live_source.h"
-#include "plumbline/live/stamp_continuity.h"
+#include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/live/live_source.h"
+#include "plumbline/io/live/stamp_continuity.h"
 #include "plumbline/report/playback_schedule.h"
 #include "plumbline/slam/options.h"
 

@@ -5,9 +5,9 @@
 #include "plumbline/base/printable.h"
 #include "plumbline/features/stereo_pair_check.h"
 #include "plumbline/image/rectify.h"
-#include "plumbline/io/camera_file.h"
-#include "plumbline/io/dataset.h"
-#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/cameras/camera_file.h"
+#include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/datasets/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/error_options.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
-#include "plumbline/io/process_settings.h"
+#include "plumbline/io/datasets/process_settings.h"
 #include "plumbline/version.h"
 
 #include "apps/commands.h"

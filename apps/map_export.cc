@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
-#include "plumbline/io/dataset.h"
-#include "plumbline/io/keyframe_images.h"
-#include "plumbline/io/map_io.h"
+#include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/export/keyframe_images.h"
+#include "plumbline/io/map_file/map_io.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/slam/saved_options.h"
 

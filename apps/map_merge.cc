@@ -3,7 +3,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/sim3.h"
 #include "plumbline/io/atomic_file.h"
-#include "plumbline/io/map_io.h"
+#include "plumbline/io/map_file/map_io.h"
 #include "plumbline/io/text_rows.h"
 
 #include "apps/command_line.h"

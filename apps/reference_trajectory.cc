@@ -4,11 +4,11 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
-#include "plumbline/eval/trajectory_error.h"
 #include "plumbline/io/camera_formats.h"
 #include "plumbline/io/dataset_formats.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/report/run_folder.h"
+#include "plumbline/report/trajectory_error.h"
 
 #include <set>
 #include <string>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/io/dataset.h"
-#include "plumbline/live/live_source.h"
+#include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/live/live_source.h"
 #include "plumbline/report/run_folder.h"
 #include "plumbline/report/run_journal.h"
 #include "plumbline/slam/system.h"

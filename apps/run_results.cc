@@ -5,7 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/io/atomic_file.h"
-#include "plumbline/io/path_overlap.h"
+#include "plumbline/io/datasets/path_overlap.h"
 #include "plumbline/report/html_report.h"
 #include "plumbline/report/run_files.h"
 #include "plumbline/report/sample_image.h"

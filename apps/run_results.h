@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/io/dataset.h"
+#include "plumbline/io/datasets/dataset.h"
 #include "plumbline/report/run_folder.h"
 #include "plumbline/report/summary.h"
 #include "plumbline/slam/run_result.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
-#include "plumbline/io/camera_file.h"
+#include "plumbline/io/cameras/camera_file.h"
 
 #include "fuzz/input_folder.h"
 #include <string>

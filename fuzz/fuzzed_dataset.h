@@ -3,8 +3,8 @@
 #pragma once
 
 #include "plumbline/base/error.h"
-#include "plumbline/io/dataset.h"
-#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/datasets/open_dataset.h"
 
 #include "fuzz/input_folder.h"
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
-#include "plumbline/io/image_file.h"
+#include "plumbline/io/datasets/image_file.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/byte_stream.h"
 #include "plumbline/base/error.h"
-#include "plumbline/io/map_io.h"
-#include "plumbline/io/section_file.h"
+#include "plumbline/io/map_file/map_io.h"
+#include "plumbline/io/map_file/section_file.h"
 
 #include "fuzz/input_folder.h"
 #include <algorithm>

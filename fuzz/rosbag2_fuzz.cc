@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/rosbag2_files.h"
-#include "plumbline/recording/compression.h"
-#include "plumbline/recording/recording_formats.h"
+#include "plumbline/io/datasets/rosbag2_files.h"
+#include "plumbline/io/recordings/compression.h"
+#include "plumbline/io/recordings/recording_formats.h"
 
 #include "fuzz/recording_fuzz.h"
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
-#include "plumbline/live/open_live_source.h"
+#include "plumbline/io/live/open_live_source.h"
 
 #include "fuzz/input_folder.h"
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
-#include "plumbline/foxglove/protocol.h"
 #include "plumbline/map/atlas.h"
+#include "plumbline/viewer/protocol.h"
 #include "plumbline/viewer/view_clients.h"
 #include "plumbline/viewer/web_access.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
-#include "plumbline/io/obj_lines.h"
+#include "plumbline/io/export/obj_lines.h"
 #include "worlds/true_world.h"
 
 #include "fuzz/input_folder.h"

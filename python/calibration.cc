@@ -6,8 +6,8 @@
 #include "plumbline/base/options.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/image/rectify.h"
-#include "plumbline/io/camera_file.h"
-#include "plumbline/io/dataset.h"
+#include "plumbline/io/cameras/camera_file.h"
+#include "plumbline/io/datasets/dataset.h"
 
 #include "apps/command_line.h"
 #include "arrays.h"

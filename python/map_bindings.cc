@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/calibration.h"
-#include "plumbline/io/map_io.h"
+#include "plumbline/io/map_file/map_io.h"
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/line_map.h"
 

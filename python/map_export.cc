@@ -3,8 +3,8 @@
 #include "map_export.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/io/keyframe_images.h"
-#include "plumbline/io/map_io.h"
+#include "plumbline/io/export/keyframe_images.h"
+#include "plumbline/io/map_file/map_io.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/map/keyframe_trajectory.h"
 #include "plumbline/slam/saved_options.h"

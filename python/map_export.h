@@ -4,7 +4,7 @@
 
 #include "plumbline/base/stop_check.h"
 #include "plumbline/geometry/trajectory.h"
-#include "plumbline/io/dataset.h"
+#include "plumbline/io/datasets/dataset.h"
 #include "plumbline/mapping/line_map.h"
 
 #include "maps.h"

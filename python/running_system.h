@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/base/stop_check.h"
-#include "plumbline/io/dataset.h"
+#include "plumbline/io/datasets/dataset.h"
 #include "plumbline/map/saved_atlas.h"
 #include "plumbline/slam/pipeline.h"
 #include "plumbline/slam/system.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/geometry/calibration.h"
-#include "plumbline/io/dataset.h"
+#include "plumbline/io/datasets/dataset.h"
 
 namespace plumbline::python {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
-#include "plumbline/io/dataset.h"
+#include "plumbline/io/datasets/dataset.h"
 #include "plumbline/report/run_folder.h"
 #include "worlds/sequence.h"
 #include "worlds/world_catalog.h"

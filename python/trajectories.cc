@@ -3,11 +3,11 @@
 #include "trajectories.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/eval/trajectory_error.h"
 #include "plumbline/geometry/alignment.h"
 #include "plumbline/geometry/se3.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/io/trajectory_io.h"
+#include "plumbline/report/trajectory_error.h"
 
 #include "apps/command_line.h"
 #include "apps/command_outputs.h"

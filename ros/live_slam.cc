@@ -4,11 +4,11 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
-#include "plumbline/io/camera_file.h"
-#include "plumbline/io/dataset.h"
-#include "plumbline/io/map_io.h"
-#include "plumbline/io/recorded_topics.h"
-#include "plumbline/live/stamp_continuity.h"
+#include "plumbline/io/cameras/camera_file.h"
+#include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/datasets/recorded_topics.h"
+#include "plumbline/io/live/stamp_continuity.h"
+#include "plumbline/io/map_file/map_io.h"
 #include "plumbline/slam/pipeline.h"
 #include "plumbline/slam/system.h"
 

@@ -3,8 +3,8 @@
 #include "sensor_messages.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/io/raw_pixels.h"
-#include "plumbline/io/recorded_calibration.h"
+#include "plumbline/io/datasets/raw_pixels.h"
+#include "plumbline/io/datasets/recorded_calibration.h"
 
 #include <span>
 

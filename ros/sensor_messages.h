@@ -4,7 +4,7 @@
 
 #include "plumbline/geometry/calibration.h"
 #include "plumbline/image/image.h"
-#include "plumbline/io/image_file.h"
+#include "plumbline/io/datasets/image_file.h"
 
 #include "live_slam.h"
 #include <optional>

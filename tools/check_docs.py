@@ -141,7 +141,7 @@ def command_problems(root, documents):
                     if f'"{flag}"' not in commands[name]:
                         yield f"{where}: plumbline {name} has no {flag}"
             elif program.startswith(BENCHMARKS):
-                source = root / program.replace(BENCHMARKS, "bench/")
+                source = root / program.replace(BENCHMARKS, "lab/bench/")
                 if not source.with_suffix(".cc").is_file():
                     yield f"{where}: there is no benchmark {words[0]}"
             # Programs of the system are not ours to check.
@@ -168,7 +168,7 @@ def test_name_problems(root, documents):
 
 def problems(root):
     documents = sorted([*root.glob("*.md"), *(root / "docs").rglob("*.md"), *(root / "lab/notes").glob("*.md")])
-    sources = sorted(path for folder in ("plumbline", "worlds", "lab", "apps", "tests", "bench")
+    sources = sorted(path for folder in ("plumbline", "worlds", "lab", "apps", "tests")
                      for path in (root / folder).rglob("*") if path.suffix in (".h", ".cc"))
     yield from link_problems(root, documents)
     yield from index_problems(root)

@@ -15,7 +15,7 @@ import sys
 
 MOST_LINES = 60
 MOST_PARAMETERS = 6
-FOLDERS = ("plumbline", "worlds", "lab", "apps", "python", "examples", "bench", "fuzz", "tests")
+FOLDERS = ("plumbline", "worlds", "lab", "apps", "python", "examples", "fuzz", "tests")
 EXCEPTIONS = "tools/function_exceptions.txt"
 
 NOT_CODE = re.compile(r"""

@@ -3,7 +3,7 @@
 
 Usage: plot_ba_times.py RESULT.json FIGURE.svg
 
-RESULT.json is what bench/local_ba_bench wrote with --benchmark_out=RESULT.json
+RESULT.json is what lab/bench/local_ba_bench wrote with --benchmark_out=RESULT.json
 --benchmark_out_format=json. Times are medians of the CPU time over the repetitions.
 """
 import json

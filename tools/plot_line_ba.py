@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws what bench/line_ba measured as SVG: time of bundle adjustment against the number of lines.
+"""Draws what lab/bench/line_ba measured as SVG: time of bundle adjustment against the number of lines.
 
 Usage: plot_line_ba.py RESULT.csv FIGURE.svg
 

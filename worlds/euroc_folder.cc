@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/parallel.h"
 #include "plumbline/io/atomic_file.h"
-#include "plumbline/io/png.h"
+#include "plumbline/io/export/png.h"
 #include "worlds/sequence_formats.h"
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include "plumbline/base/input_file.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/base/printable.h"
-#include "plumbline/io/yaml_section.h"
+#include "plumbline/io/cameras/yaml_section.h"
 #include "worlds/scene_builder.h"
 
 #include <array>

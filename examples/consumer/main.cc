@@ -4,8 +4,8 @@
 // Tracks a sequence and prints where the camera was: consumer PATH
 #include <iostream>
 
-#include <plumbline/io/open_dataset.h>
-#include <plumbline/io/process_settings.h>
+#include <plumbline/io/datasets/open_dataset.h>
+#include <plumbline/io/datasets/process_settings.h>
 #include <plumbline/slam/system.h>
 
 int main(int argc, char** argv) {

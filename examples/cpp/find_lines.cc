@@ -6,7 +6,7 @@
 
 #include <plumbline/features/find_lines.h>
 #include <plumbline/features/match_lines.h>
-#include <plumbline/io/image_file.h>
+#include <plumbline/io/datasets/image_file.h>
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;

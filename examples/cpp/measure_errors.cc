@@ -5,9 +5,9 @@
 // FILE
 #include <iostream>
 
-#include <plumbline/eval/trajectory_error.h>
-#include <plumbline/io/open_dataset.h>
+#include <plumbline/io/datasets/open_dataset.h>
 #include <plumbline/io/trajectory_io.h>
+#include <plumbline/report/trajectory_error.h>
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;

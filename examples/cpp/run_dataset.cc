@@ -4,8 +4,8 @@
 // SLAM on a recorded sequence in one call: run_dataset PATH > trajectory.txt
 #include <iostream>
 
-#include <plumbline/io/open_dataset.h>
-#include <plumbline/io/process_settings.h>
+#include <plumbline/io/datasets/open_dataset.h>
+#include <plumbline/io/datasets/process_settings.h>
 #include <plumbline/io/trajectory_io.h>
 #include <plumbline/report/run_dataset.h>
 

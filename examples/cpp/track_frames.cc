@@ -4,8 +4,8 @@
 // SLAM on images that come from anywhere: track_frames CAMERA_FILE (LEFT RIGHT)... > trajectory.txt
 #include <iostream>
 
-#include <plumbline/io/camera_file.h>
-#include <plumbline/io/image_file.h>
+#include <plumbline/io/cameras/camera_file.h>
+#include <plumbline/io/datasets/image_file.h>
 #include <plumbline/io/trajectory_io.h>
 #include <plumbline/slam/system.h>
 

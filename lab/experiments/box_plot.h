@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/eval/figure.h"
+#include "plumbline/report/figure.h"
 
 #include <string>
 #include <vector>

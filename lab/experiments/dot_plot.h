@@ -3,7 +3,7 @@
 #pragma once
 
 #include "lab/experiments/table.h"
-#include "plumbline/eval/figure.h"
+#include "plumbline/report/figure.h"
 
 #include <cstddef>
 

@@ -5,7 +5,7 @@
 #include "lab/line_maps/line_map_error.h"
 #include "lab/line_maps/run_line_map.h"
 #include "plumbline/base/error.h"
-#include "plumbline/eval/trajectory_error.h"
+#include "plumbline/report/trajectory_error.h"
 
 #include <algorithm>
 #include <array>

@@ -8,11 +8,11 @@
 #include "lab/line_maps/run_trajectory.h"
 #include "plumbline/base/base64.h"
 #include "plumbline/base/error.h"
-#include "plumbline/eval/trajectory_figure.h"
-#include "plumbline/io/keyframe_images.h"
-#include "plumbline/io/map_io.h"
-#include "plumbline/io/open_dataset.h"
-#include "plumbline/io/png.h"
+#include "plumbline/io/datasets/open_dataset.h"
+#include "plumbline/io/export/keyframe_images.h"
+#include "plumbline/io/export/png.h"
+#include "plumbline/io/map_file/map_io.h"
+#include "plumbline/report/trajectory_figure.h"
 #include "worlds/true_world.h"
 
 #include <algorithm>

@@ -6,8 +6,8 @@
 #include "lab/experiments/line_map_plots.h"
 #include "lab/line_maps/run_trajectory.h"
 #include "plumbline/base/error.h"
-#include "plumbline/eval/trajectory_figure.h"
-#include "plumbline/io/map_io.h"
+#include "plumbline/io/map_file/map_io.h"
+#include "plumbline/report/trajectory_figure.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 
 #include "lab/experiments/job_runner.h"
 #include "lab/experiments/table_page.h"
-#include "plumbline/eval/figure.h"
+#include "plumbline/report/figure.h"
 
 #include <vector>
 

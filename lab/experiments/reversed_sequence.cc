@@ -5,7 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/options.h"
 #include "plumbline/io/atomic_file.h"
-#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/datasets/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include "lab/experiments/metrics.h"
 #include "lab/starts/start_bench.h"
 #include "lab/starts/start_figures.h"
-#include "plumbline/eval/figure.h"
+#include "plumbline/report/figure.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include "lab/line_maps/line_map_error.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/eval/trajectory_error.h"
 #include "plumbline/geometry/segment.h"
+#include "plumbline/report/trajectory_error.h"
 
 #include <algorithm>
 #include <cmath>

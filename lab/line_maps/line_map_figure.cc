@@ -3,7 +3,7 @@
 #include "lab/line_maps/line_map_figure.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/eval/trajectory_figure.h"
+#include "plumbline/report/trajectory_figure.h"
 
 #include <algorithm>
 #include <array>

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "lab/line_maps/line_map_error.h"
-#include "plumbline/eval/figure.h"
-#include "plumbline/eval/trajectory_error.h"
 #include "plumbline/geometry/segment.h"
+#include "plumbline/report/figure.h"
+#include "plumbline/report/trajectory_error.h"
 #include "worlds/true_line.h"
 
 #include <optional>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/eval/trajectory_error.h"
 #include "plumbline/geometry/camera.h"
+#include "plumbline/report/trajectory_error.h"
 #include "worlds/true_line.h"
 
 #include <array>

@@ -4,10 +4,10 @@
 
 #include "lab/line_maps/run_trajectory.h"
 #include "plumbline/base/error.h"
-#include "plumbline/io/dataset.h"
-#include "plumbline/io/map_io.h"
-#include "plumbline/io/obj_lines.h"
-#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/datasets/open_dataset.h"
+#include "plumbline/io/export/obj_lines.h"
+#include "plumbline/io/map_file/map_io.h"
 #include "plumbline/io/trajectory_io.h"
 #include "worlds/true_world.h"
 

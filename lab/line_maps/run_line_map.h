@@ -3,9 +3,9 @@
 #pragma once
 
 #include "lab/line_maps/line_viewers.h"
-#include "plumbline/eval/trajectory_error.h"
 #include "plumbline/geometry/segment.h"
 #include "plumbline/geometry/sim3.h"
+#include "plumbline/report/trajectory_error.h"
 #include "worlds/parallelogram.h"
 #include "worlds/true_line.h"
 

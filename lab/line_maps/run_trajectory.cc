@@ -4,8 +4,8 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
-#include "plumbline/io/dataset.h"
-#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/datasets/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/error_options.h"
 

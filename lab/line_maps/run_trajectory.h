@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/eval/trajectory_error.h"
+#include "plumbline/report/trajectory_error.h"
 
 #include <filesystem>
 #include <optional>

@@ -4,9 +4,9 @@
 
 #include "plumbline/base/input_file.h"
 #include "plumbline/features/extractor.h"
-#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/cameras/yaml_section.h"
+#include "plumbline/io/datasets/open_dataset.h"
 #include "plumbline/io/text_rows.h"
-#include "plumbline/io/yaml_section.h"
 #include "plumbline/report/error_options.h"
 
 #include <algorithm>

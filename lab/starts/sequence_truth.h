@@ -4,7 +4,7 @@
 
 #include "lab/starts/start_truth.h"
 #include "plumbline/image/rectify.h"
-#include "plumbline/io/dataset.h"
+#include "plumbline/io/datasets/dataset.h"
 #include "plumbline/slam/front_end.h"
 
 #include <cstddef>

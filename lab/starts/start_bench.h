@@ -6,7 +6,7 @@
 #include "plumbline/base/options.h"
 #include "plumbline/features/extractor.h"
 #include "plumbline/initialization/initializer.h"
-#include "plumbline/io/dataset.h"
+#include "plumbline/io/datasets/dataset.h"
 #include "plumbline/matching/projection_search.h"
 
 #include <cstdint>

@@ -5,8 +5,8 @@
 #include "plumbline/geometry/calibration.h"
 #include "plumbline/geometry/camera.h"
 #include "plumbline/geometry/se3.h"
-#include "plumbline/io/image_file.h"
-#include "plumbline/io/yaml_section.h"
+#include "plumbline/io/cameras/yaml_section.h"
+#include "plumbline/io/datasets/image_file.h"
 
 #include <filesystem>
 #include <optional>

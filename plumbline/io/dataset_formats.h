@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/io/dataset.h"
+#include "plumbline/io/datasets/dataset.h"
 
 #include <filesystem>
 #include <memory>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/geometry/trajectory.h"
-#include "plumbline/io/stamp_order.h"
+#include "plumbline/io/datasets/stamp_order.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/io/dataset.h"
+#include "plumbline/io/datasets/dataset.h"
 #include "plumbline/report/sample_image.h"
 #include "plumbline/report/shown_frames.h"
 #include "plumbline/report/summary.h"

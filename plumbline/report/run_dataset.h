@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/base/stop_check.h"
-#include "plumbline/io/dataset.h"
+#include "plumbline/io/datasets/dataset.h"
 #include "plumbline/slam/frame_record.h"
 #include "plumbline/slam/options.h"
 #include "plumbline/slam/run_result.h"

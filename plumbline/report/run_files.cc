@@ -6,7 +6,7 @@
 #include "plumbline/geometry/trajectory.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/geometry_files.h"
-#include "plumbline/io/map_io.h"
+#include "plumbline/io/map_file/map_io.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/timing.h"
 #include "plumbline/slam/atlas_context.h"

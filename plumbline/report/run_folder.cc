@@ -5,7 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
 #include "plumbline/io/atomic_file.h"
-#include "plumbline/io/path_overlap.h"
+#include "plumbline/io/datasets/path_overlap.h"
 
 #include <algorithm>
 #include <exception>

@@ -4,7 +4,7 @@
 
 #include "plumbline/image/image_codecs.h"
 #include "plumbline/image/opencv_bridge.h"
-#include "plumbline/io/png.h"
+#include "plumbline/io/export/png.h"
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/eval/trajectory_error.h"
-#include "plumbline/io/dataset.h"
+#include "plumbline/io/datasets/dataset.h"
+#include "plumbline/report/trajectory_error.h"
 #include "plumbline/slam/run_result.h"
 
 #include <cstddef>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/report/timing.h"
 
-#include "plumbline/eval/trajectory_error.h"
 #include "plumbline/io/trajectory_io.h"
+#include "plumbline/report/trajectory_error.h"
 
 #include <algorithm>
 #include <cmath>

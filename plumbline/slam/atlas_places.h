@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/loop_closing/place_index.h"
 #include "plumbline/map/atlas.h"
-#include "plumbline/place/place_index.h"
 
 #include <cstddef>
 #include <vector>

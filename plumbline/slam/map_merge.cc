@@ -5,10 +5,10 @@
 #include "plumbline/loop_closing/close_loop.h"
 #include "plumbline/loop_closing/essential_graph.h"
 #include "plumbline/loop_closing/pairwise_consistency.h"
+#include "plumbline/loop_closing/place_index.h"
 #include "plumbline/loop_closing/verify_loop.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/local_mapper.h"
-#include "plumbline/place/place_index.h"
 #include "plumbline/slam/atlas_places.h"
 #include "plumbline/slam/map_join.h"
 
@@ -204,11 +204,8 @@ Expected<MergedMaps, MergeRefusal> MergeMaps(const Atlas& atlas,
   if (!Bend(*overlap, free_scale, options.loop, map)) return MergeRefusal::kContradicted;
   const std::vector<KeyFrameId> ids = KeyFramesOf(of_first);
   LocalMapper mapper(imaging, methods.Lines(options.lines), options.mapping);
-  merged.ties = TieAll({ids.begin(), ids.end()},
-                       KeyFramesOf(of_second),
-                       options.loop.min_shared,
-                       mapper,
-                       map);
+  merged.ties = TieAll(
+      {ids.begin(), ids.end()}, KeyFramesOf(of_second), options.loop.min_shared, mapper, map);
   mapper.Finish(map);
   return merged;
 }

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "plumbline/loop_closing/loop_closer.h"
+#include "plumbline/loop_closing/place_index.h"
 #include "plumbline/map/atlas.h"
-#include "plumbline/place/place_index.h"
 #include "plumbline/slam/map_events.h"
 #include "plumbline/tracking/options.h"
 #include "plumbline/tracking/relocalization.h"

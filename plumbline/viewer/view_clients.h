@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/foxglove/protocol.h"
 #include "plumbline/map/atlas.h"
+#include "plumbline/viewer/protocol.h"
 #include "plumbline/viewer/view_state.h"
 #include "plumbline/viewer/web_server.h"
 

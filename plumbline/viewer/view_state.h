@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/foxglove/messages.h"
-#include "plumbline/foxglove/schemas.h"
 #include "plumbline/slam/system.h"
+#include "plumbline/viewer/messages.h"
+#include "plumbline/viewer/schemas.h"
 #include "plumbline/viewer/viewed_map.h"
 
 #include <array>

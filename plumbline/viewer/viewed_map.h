@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/foxglove/messages.h"
 #include "plumbline/viewer/map_comparison.h"
+#include "plumbline/viewer/messages.h"
 
 #include <algorithm>
 #include <array>

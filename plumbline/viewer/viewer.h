@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/recording/mcap_file_writer.h"
+#include "plumbline/io/recordings/mcap_file_writer.h"
 #include "plumbline/slam/map_events.h"
 #include "plumbline/slam/system.h"
 #include "plumbline/viewer/map_comparison.h"

@@ -3,7 +3,7 @@
 #include "plumbline/viewer/web_server.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/foxglove/protocol.h"
+#include "plumbline/viewer/protocol.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include "apps/command_outputs.h"
 
 #include "plumbline/io/geometry_files.h"
-#include "plumbline/io/map_io.h"
+#include "plumbline/io/map_file/map_io.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/run_folder.h"
 

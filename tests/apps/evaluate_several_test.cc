@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/eval/trajectory_error.h"
 #include "plumbline/geometry/sim3.h"
 #include "plumbline/io/trajectory_io.h"
+#include "plumbline/report/trajectory_error.h"
 
 #include "apps/commands.h"
 #include "apps/evaluate_outputs.h"

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/line_maps/run_line_map.h"
 #include "plumbline/base/error.h"
-#include "plumbline/io/map_io.h"
-#include "plumbline/io/obj_lines.h"
+#include "plumbline/io/export/obj_lines.h"
 #include "plumbline/io/geometry_files.h"
+#include "plumbline/io/map_file/map_io.h"
 #include "plumbline/io/trajectory_io.h"
 #include "worlds/true_world.h"
 

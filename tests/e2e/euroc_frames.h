@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/io/image_file.h"
+#include "plumbline/io/datasets/image_file.h"
 #include "plumbline/io/text_rows.h"
 
 #include "tests/io/scratch_folder.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/png.h"
+#include "plumbline/io/export/png.h"
 
 #include "tests/e2e/euroc_frames.h"
 #include "tests/e2e/poster_sequence.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/image_file.h"
-#include "plumbline/io/map_io.h"
+#include "plumbline/io/datasets/image_file.h"
+#include "plumbline/io/map_file/map_io.h"
 #include "plumbline/io/trajectory_io.h"
 
 #include "tests/e2e/poster_run.h"

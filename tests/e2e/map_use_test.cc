@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 // Runs that go on in the map of an earlier run.
-#include "plumbline/io/map_io.h"
+#include "plumbline/io/map_file/map_io.h"
 
 #include "tests/e2e/poster_sequence.h"
 #include "tests/e2e/program.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/io/map_io.h"
+#include "plumbline/io/map_file/map_io.h"
 
 #include "tests/support/misfits.h"
 #include <filesystem>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/io/png.h"
+#include "plumbline/io/export/png.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/support/moving_poster.h"

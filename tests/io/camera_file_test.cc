@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/camera_file.h"
+#include "plumbline/io/cameras/camera_file.h"
 
-#include "plumbline/io/dataset.h"
-#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/datasets/open_dataset.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/support/data_folder.h"

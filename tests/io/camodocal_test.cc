@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/camera_formats.h"
-
-#include "plumbline/io/camera_file.h"
+#include "plumbline/io/cameras/camera_file.h"
 
 #include "tests/io/scratch_folder.h"
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/colmap_model.h"
+#include "plumbline/io/export/colmap_model.h"
 
-#include "plumbline/io/keyframe_images.h"
+#include "plumbline/io/export/keyframe_images.h"
 #include "plumbline/map/reprojection.h"
 
 #include "tests/io/scratch_folder.h"

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/frame_preparation.h"
+#include "plumbline/io/datasets/frame_preparation.h"
 
 #include "plumbline/base/error.h"
 #include "plumbline/image/opencv_bridge.h"
-#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/datasets/open_dataset.h"
 
 #include "tests/io/dataset_fixtures.h"
 #include "tests/io/scratch_folder.h"

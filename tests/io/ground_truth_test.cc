@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/ground_truth.h"
+#include "plumbline/io/datasets/ground_truth.h"
 
-#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/datasets/open_dataset.h"
 
 #include "tests/io/dataset_fixtures.h"
 #include "tests/io/scratch_folder.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/image_file.h"
+#include "plumbline/io/datasets/image_file.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/support/data_folder.h"

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/keyframe_images.h"
+#include "plumbline/io/export/keyframe_images.h"
 
 #include "plumbline/features/extractor.h"
 #include "plumbline/image/filters.h"
-#include "plumbline/io/open_dataset.h"
-#include "plumbline/io/png.h"
+#include "plumbline/io/datasets/open_dataset.h"
+#include "plumbline/io/export/png.h"
 
 #include "tests/e2e/poster_sequence.h"
 #include "tests/io/scratch_folder.h"

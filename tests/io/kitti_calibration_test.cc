@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/camera_formats.h"
-#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/datasets/open_dataset.h"
 
 #include "tests/io/dataset_fixtures.h"
 #include "tests/io/scratch_folder.h"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/nerfstudio.h"
+#include "plumbline/io/export/nerfstudio.h"
 
-#include "plumbline/io/keyframe_images.h"
+#include "plumbline/io/export/keyframe_images.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/support/true_map.h"

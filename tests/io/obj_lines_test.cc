@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/obj_lines.h"
+#include "plumbline/io/export/obj_lines.h"
 
 #include "plumbline/io/geometry_files.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/path_overlap.h"
+#include "plumbline/io/datasets/path_overlap.h"
 
 #include "tests/io/scratch_folder.h"
 #include <filesystem>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/png.h"
+#include "plumbline/io/export/png.h"
 
-#include "plumbline/io/image_file.h"
+#include "plumbline/io/datasets/image_file.h"
 
 #include "tests/io/scratch_folder.h"
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/process_settings.h"
+#include "plumbline/io/datasets/process_settings.h"
 
 #include <csignal>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/raw_pixels.h"
+#include "plumbline/io/datasets/raw_pixels.h"
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/recorded_calibration.h"
+#include "plumbline/io/datasets/recorded_calibration.h"
 
 #include <string>
 #include <vector>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What of recordings is refused, and what the messages say.
-#include "plumbline/io/dataset.h"
-#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/datasets/open_dataset.h"
 
 #include "tests/io/dataset_fixtures.h"
 #include "tests/io/recorded_bag.h"

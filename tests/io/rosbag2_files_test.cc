@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/rosbag2_files.h"
+#include "plumbline/io/datasets/rosbag2_files.h"
 
-#include "plumbline/io/dataset.h"
-#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/datasets/open_dataset.h"
 
 #include "tests/io/dataset_fixtures.h"
 #include "tests/io/scratch_folder.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/section_file.h"
+#include "plumbline/io/map_file/section_file.h"
 
 #include "plumbline/base/byte_stream.h"
 #include "plumbline/base/crc32.h"

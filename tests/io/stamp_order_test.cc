@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/stamp_order.h"
+#include "plumbline/io/datasets/stamp_order.h"
 
 #include <string>
 #include <vector>

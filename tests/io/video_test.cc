@@ -3,7 +3,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/io/dataset_formats.h"
-#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/datasets/open_dataset.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/support/video_file.h"

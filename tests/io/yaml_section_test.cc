@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/yaml_section.h"
+#include "plumbline/io/cameras/yaml_section.h"
 
 #include "tests/io/scratch_folder.h"
 #include <string>

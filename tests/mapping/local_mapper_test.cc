@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/local_mapper.h"
 
-#include "plumbline/io/map_io.h"
+#include "plumbline/io/map_file/map_io.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/support/true_map.h"

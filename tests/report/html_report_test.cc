@@ -4,7 +4,7 @@
 
 #include "plumbline/base/base64.h"
 #include "plumbline/base/options_io.h"
-#include "plumbline/io/image_file.h"
+#include "plumbline/io/datasets/image_file.h"
 #include "plumbline/report/sample_image.h"
 #include "plumbline/slam/atlas_context.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/map_io.h"
+#include "plumbline/io/map_file/map_io.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/run_files.h"
 #include "plumbline/report/sample_image.h"

@@ -3,7 +3,7 @@
 #include "ros/live_slam.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/io/map_io.h"
+#include "plumbline/io/map_file/map_io.h"
 
 #include "tests/io/scratch_folder.h"
 #include <cstdint>

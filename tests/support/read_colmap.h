@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/io/colmap_model.h"
+#include "plumbline/io/export/colmap_model.h"
 
 #include <bit>
 #include <cstdint>

@@ -3,7 +3,7 @@
 #include "plumbline/viewer/viewer.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/recording/recording_formats.h"
+#include "plumbline/io/recordings/recording_formats.h"
 #include "plumbline/viewer/view_state.h"
 
 #include "tests/io/scratch_folder.h"

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "worlds/sequence_cache.h"
 
-#include "plumbline/io/dataset.h"
-#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/datasets/open_dataset.h"
 #include "worlds/world.h"
 #include "worlds/world_catalog.h"
 

@@ -6,8 +6,8 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
 #include "plumbline/io/atomic_file.h"
-#include "plumbline/io/dataset.h"
-#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/datasets/open_dataset.h"
 
 #include "tests/io/scratch_folder.h"
 #include <algorithm>

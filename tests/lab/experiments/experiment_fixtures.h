@@ -5,7 +5,7 @@
 #include "lab/experiments/figure_list.h"
 #include "lab/experiments/job_runner.h"
 #include "lab/experiments/plan.h"
-#include "plumbline/io/png.h"
+#include "plumbline/io/export/png.h"
 
 #include "tests/io/scratch_folder.h"
 #include <filesystem>

@@ -3,7 +3,7 @@
 #include "lab/experiments/reversed_sequence.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/datasets/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
 
 #include "tests/io/dataset_fixtures.h"

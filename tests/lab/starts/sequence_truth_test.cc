@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/starts/sequence_truth.h"
 
-#include "plumbline/io/open_dataset.h"
-#include "plumbline/io/png.h"
+#include "plumbline/io/datasets/open_dataset.h"
+#include "plumbline/io/export/png.h"
 
 #include "tests/e2e/poster_sequence.h"
 #include "tests/io/scratch_folder.h"

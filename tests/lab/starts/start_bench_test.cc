@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/starts/start_bench.h"
 
-#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/datasets/open_dataset.h"
 
 #include "tests/e2e/poster_sequence.h"
 #include "tests/io/scratch_folder.h"

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/camera_formats.h"
+#include "plumbline/io/cameras/camera_section.h"
+
+#include <optional>
+#include <string>
+
+namespace plumbline {
+namespace {
+
+Camera ReadCamera(const YamlSection& section) {
+  return ReadModelCamera(section, {"resolution", "intrinsics", "distortion_coeffs"}, "radtan");
+}
+
+// Reads a number unknown to Kalibr, at the top of the file or with the left camera.
+std::optional<double> AddedNumber(const YamlSection& root, const std::string& key) {
+  const YamlSection left = root.Child("cam0");
+  if (!root.Has(key)) return left.Has(key) ? std::optional(left.Positive(key)) : std::nullopt;
+  if (left.Has(key)) root.Fail(key, "expected it here or in cam0, found both");
+  return root.Positive(key);
+}
+
+// The pose of the right camera: Kalibr's own, or without it from the poses of both cameras at an
+// inertial sensor, as in files of OpenVINS.
+Rigid3 RightFromLeft(const YamlSection& left, const YamlSection& right) {
+  if (!right.Has("T_cn_cnm1")) {
+    const auto both = [&](const char* key) { return left.Has(key) && right.Has(key); };
+    if (both("T_cam_imu")) return right.Motion("T_cam_imu") * Inverse(left.Motion("T_cam_imu"));
+    if (both("T_imu_cam")) return Inverse(right.Motion("T_imu_cam")) * left.Motion("T_imu_cam");
+    right.Fail("T_cn_cnm1", "expected it, or T_cam_imu or T_imu_cam of both cameras, found none");
+  }
+  return right.Motion("T_cn_cnm1");
+}
+
+}  // namespace
+
+Calibration ReadKalibr(const YamlSection& root) {
+  if (!root.Has("cam0")) root.Fail("cam1", "expected cam0, the left camera, beside it, found none");
+  Calibration calibration;
+  calibration.left = ReadCamera(root.Child("cam0"));
+  if (root.Has("cam1")) {
+    const YamlSection right = root.Child("cam1");
+    calibration.right = ReadCamera(right);
+    calibration.right_from_left = RightFromLeft(root.Child("cam0"), right);
+  }
+  calibration.rate_hz = AddedNumber(root, "rate_hz");
+  calibration.depth_factor = AddedNumber(root, "depth_factor");
+  return calibration;
+}
+
+}  // namespace plumbline

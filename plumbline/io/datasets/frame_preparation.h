@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/image/image.h"
+#include "plumbline/image/resample.h"
+#include "plumbline/io/datasets/dataset.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+namespace plumbline {
+
+// Images of more pixels are reduced unless a width is given: 2 megapixels, enough for 1920x1080.
+constexpr std::int64_t kMostPixelsByDefault = std::int64_t{1} << 21;
+
+// Returns the rotation of images: as requested or, with Rotation::kAuto, as `noted` in the file.
+Orientation TurnOf(Rotation rotation, const Orientation& noted = {});
+
+// Returns the size of reduced images: of at most `max_width` columns or, if that is not given, of
+// at most kMostPixelsByDefault; the aspect ratio stays. Smaller images keep their size. Throws
+// InputError for a width below 1.
+ImageSize ReducedSize(ImageSize size, std::optional<int> max_width);
+
+// Preparation of frames between reading and use: first they are rotated, then reduced. The camera
+// frame is that of the images as used.
+class FramePreparation {
+ public:
+  // `calibration` is that of the images as stored. Throws InputError for the rotation of a stereo
+  // pair, since its cameras would not lie side by side.
+  FramePreparation(const Calibration& calibration,
+                   const Orientation& turn,
+                   std::optional<int> max_width);
+
+  // Returns true if frames do not change.
+  bool IsIdentity() const { return turn_.IsIdentity() && reduced_ == turned_; }
+  // Calibration of the frames as used.
+  const Calibration& calibration() const { return calibration_; }
+  // Returns a sentence about the reduction of images; nullopt if they are not reduced.
+  std::optional<std::string> ReductionNote() const;
+
+  // Returns an image as used: reduced by area means. An image whose size differs from the
+  // calibration is only rotated.
+  GrayImage Apply(GrayImage image) const;
+  // Returns depth as used: reduced to the nearest pixels, which are not mixed across edges.
+  DepthImage Apply(DepthImage depth) const;
+  SensorFrame Apply(SensorFrame frame) const;
+
+ private:
+  Orientation turn_;
+  ImageSize turned_, reduced_;
+  Calibration calibration_;
+};
+
+// Rotation of the images of a data set, and its reason.
+struct ImageTurn {
+  Orientation orientation;
+  bool as_noted = false;  // true if the file requests it
+  // true if the delivered calibration was of the rotated images
+  bool calibration_of_turned = false;
+};
+
+// Decides the rotation of images of size `stored` whose file notes an orientation. If the
+// calibration of `info` fits only the rotated images, it is rotated back to the images as stored.
+// If it fits both, it is that of the images as stored, which the sensor delivers.
+ImageTurn ChooseTurn(Rotation rotation,
+                     const Orientation& noted,
+                     ImageSize stored,
+                     DatasetInfo& info);
+
+// Returns the description of a sequence of prepared frames, with notes about the preparation.
+// Ground truth of the camera rotates with it. Without a calibration (DatasetInfo::has_calibration),
+// images are only rotated.
+DatasetInfo Prepared(DatasetInfo info, const FramePreparation& preparation, const ImageTurn& turn);
+
+// Returns a data set with the frames of `recorded` after a FramePreparation, or `recorded` itself
+// if that changes nothing.
+std::unique_ptr<Dataset> PrepareFrames(std::unique_ptr<Dataset> recorded,
+                                       const ImageTurn& turn,
+                                       std::optional<int> max_width);
+
+}  // namespace plumbline

@@ -1,0 +1,393 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/printable.h"
+#include "plumbline/io/cameras/camera_file.h"
+#include "plumbline/io/dataset_formats.h"
+#include "plumbline/io/datasets/ground_truth.h"
+#include "plumbline/io/datasets/image_dataset.h"
+#include "plumbline/io/datasets/raw_pixels.h"
+#include "plumbline/io/datasets/recorded_calibration.h"
+#include "plumbline/io/datasets/recorded_topics.h"
+#include "plumbline/io/datasets/stamp_order.h"
+#include "plumbline/io/recordings/image_message.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kMaxPairDelayNs = 5'000'000;
+constexpr std::int64_t kMaxDepthDelayNs = 20'000'000;
+// Units per metre of depth in 16 bits, as ROS has it (REP 118).
+constexpr double kMillimetres = 1000;
+constexpr std::size_t kCompressedDepthHeader = 12;
+
+bool IsInMetres(std::string_view encoding) { return encoding.starts_with("32FC1"); }
+
+// Depth in metres that image_transport's compressedDepth packed: before the image stand, behind 4
+// bytes, the numbers a and b by which a level v is a / (v - b) metres. 0 is no measurement.
+Expected<DepthImage, ImageFailure> DecodeInverseDepth(const fs::path& name,
+                                                      std::span<const std::uint8_t> bytes,
+                                                      std::optional<ImageSize> wanted) {
+  if (bytes.size() < kCompressedDepthHeader) return ImageFailure{name, "the message ends early"};
+  const auto number = [&](std::size_t at) {
+    std::uint32_t bits = 0;
+    for (std::size_t i = 4; i-- > 0;) bits = (bits << 8U) | bytes[at + i];
+    return std::bit_cast<float>(bits);
+  };
+  const float a = number(4), b = number(8);
+  auto depth = DecodeDepthImage(name, bytes.subspan(kCompressedDepthHeader), 1, wanted);
+  if (!depth) return depth;
+  for (int y = 0; y < depth->height(); ++y) {
+    float* row = depth->row(y);
+    for (int x = 0; x < depth->width(); ++x) {
+      const float metres = row[x] == 0 ? 0 : a / (row[x] - b);
+      row[x] = std::isfinite(metres) && metres > 0 ? metres : 0;
+    }
+  }
+  return depth;
+}
+
+// The messages of a frame.
+struct FrameMessages {
+  StoredMessage left;
+  std::optional<StoredMessage> right, depth;
+};
+
+RawPixels PixelsOf(const ImageMessage& image) {
+  return {image.encoding, image.width, image.height, image.step, image.big_endian, image.data};
+}
+
+class RecordedDataset : public Dataset {
+ public:
+  RecordedDataset(DatasetInfo info,
+                  std::unique_ptr<Recording> file,
+                  std::vector<FrameMessages> frames,
+                  std::optional<int> bits)
+      : Dataset(std::move(info)), file_(std::move(file)), frames_(std::move(frames)), bits_(bits) {}
+
+  Expected<SensorFrame, ImageFailure> Read(std::size_t i) const override {
+    const FrameMessages& messages = frames_.at(i);
+    const Camera& left_camera = calibration().left;
+    const ImageSize size = SizeOf(left_camera);
+    SensorFrame frame;
+    frame.stamp_ns = stamp_ns(i);
+    const auto left = Gray(messages.left, size);
+    if (!left) return FailureOf(left.error(), size);
+    frame.left = *left;
+    if (messages.right) {
+      const ImageSize right_size = calibration().right ? SizeOf(*calibration().right) : size;
+      const auto right = Gray(*messages.right, right_size);
+      if (!right) return FailureOf(right.error(), right_size);
+      frame.right = *right;
+    }
+    if (messages.depth) {
+      const auto depth = Depth(*messages.depth, size);
+      if (!depth) return FailureOf(depth.error(), size);
+      frame.depth = *depth;
+    }
+    return frame;
+  }
+
+  Expected<ColorImage, ImageFailure> ReadColor(std::size_t i) const override {
+    const ImageSize size = SizeOf(calibration().left);
+    auto image = ReadImage<ColorImage>(frames_.at(i).left, [&](const ImageMessage& message) {
+      if (message.compressed) return DecodeColorImage(info().path, message.data, Wanted(size));
+      return ColorOfPixels(info().path, PixelsOf(message), Wanted(size), bits_);
+    });
+    if (!image) return FailureOf(image.error(), size);
+    return image;
+  }
+
+ private:
+  static ImageSize SizeOf(const Camera& camera) { return {camera.width(), camera.height()}; }
+
+  std::optional<ImageSize> Wanted(ImageSize size) const {
+    return info().has_calibration ? std::optional(size) : std::nullopt;
+  }
+
+  // Calls `decode` with the message's image.
+  template <class Image, class Decode>
+  Expected<Image, ImageFailure> ReadImage(const StoredMessage& place, const Decode& decode) const {
+    const Channel& channel = file_->channels()[place.channel];
+    const auto bytes = file_->Message(place);
+    if (!bytes) return ImageFailure{info().path, Printable(channel.topic) + ": " + bytes.error()};
+    const auto message = ParseImage(*FormOf(channel), *bytes);
+    if (!message) {
+      return ImageFailure{info().path, Printable(channel.topic) + ": the file has changed"};
+    }
+    Expected<Image, ImageFailure> image = decode(*message);
+    if (image) return image;
+    ImageFailure failure = image.error();
+    if (failure.other_size) failure.path += ": " + Printable(channel.topic);
+    failure.why = Printable(channel.topic) + ": " + failure.why;
+    return failure;
+  }
+
+  Expected<GrayImage, ImageFailure> Gray(const StoredMessage& place, ImageSize size) const {
+    return ReadImage<GrayImage>(place, [&](const ImageMessage& image) {
+      if (image.compressed) {
+        return DecodeGrayImage(info().path, image.data, Wanted(size), bits_.value_or(16));
+      }
+      return GrayOfPixels(info().path, PixelsOf(image), Wanted(size), bits_);
+    });
+  }
+
+  Expected<DepthImage, ImageFailure> Depth(const StoredMessage& place, ImageSize size) const {
+    const double factor = calibration().depth_factor.value_or(1);
+    return ReadImage<DepthImage>(
+        place, [&](const ImageMessage& image) -> Expected<DepthImage, ImageFailure> {
+          if (!image.compressed) {
+            return DepthOfPixels(info().path, PixelsOf(image), factor, Wanted(size));
+          }
+          std::span<const std::uint8_t> bytes = image.data;
+          if (image.encoding.find("compressedDepth") != std::string::npos) {
+            if (IsInMetres(image.encoding)) {
+              return DecodeInverseDepth(info().path, bytes, Wanted(size));
+            }
+            bytes = bytes.subspan(std::min(bytes.size(), kCompressedDepthHeader));
+          }
+          return DecodeDepthImage(info().path, bytes, factor, Wanted(size));
+        });
+  }
+
+  std::unique_ptr<Recording> file_;
+  std::vector<FrameMessages> frames_;
+  std::optional<int> bits_;  // of grey levels of 16 bits, how many are used
+};
+
+std::vector<std::int64_t> StampsOf(const RecordedTopic& topic) {
+  std::vector<std::int64_t> stamps;
+  for (const RecordedImage& image : topic.images) stamps.push_back(image.stamp_ns);
+  return stamps;
+}
+
+// Joins the images of the left topic with those of another one.
+std::vector<FrameMessages> Join(const RecordedTopic& left,
+                                const RecordedTopic& other,
+                                DatasetInfo& info) {
+  const bool stereo = info.sensor == SensorKind::kStereo;
+  const std::int64_t most_ns = stereo ? kMaxPairDelayNs : kMaxDepthDelayNs;
+  std::vector<FrameMessages> frames;
+  for (const auto& [i, k] : PairByStamp(StampsOf(left), StampsOf(other), most_ns)) {
+    info.stamps_ns.push_back(left.images[i].stamp_ns);
+    FrameMessages frame{left.images[i].place, std::nullopt, std::nullopt};
+    (stereo ? frame.right : frame.depth) = other.images[k].place;
+    frames.push_back(frame);
+  }
+  const auto note = [&](const RecordedTopic& topic, const RecordedTopic& beside) {
+    const std::size_t alone = topic.images.size() - frames.size();
+    if (alone == 0) return;
+    info.notes.push_back(fmt::format("{} images of {} without one of {} within {} ms are left out",
+                                     alone,
+                                     topic.name,
+                                     beside.name,
+                                     most_ns / 1'000'000));
+  };
+  if (frames.empty()) {
+    throw InputError(fmt::format("{}: expected images of {} and {} within {} ms, found none",
+                                 info.path.string(),
+                                 Printable(left.name),
+                                 Printable(other.name),
+                                 most_ns / 1'000'000));
+  }
+  note(left, other);
+  if (stereo) note(other, left);
+  return frames;
+}
+
+// Notes which topics are read, which are not, and which of the images are not.
+void NoteTopics(const RecordedTopics& topics,
+                const std::vector<const RecordedTopic*>& used,
+                DatasetInfo& info) {
+  std::vector<std::string> names;
+  for (const RecordedTopic* topic : used) {
+    names.push_back(topic->name);
+    if (topic->without_stamp > 0) {
+      info.notes.push_back(
+          fmt::format("{} images of {} have no stamp: when they were recorded is "
+                      "taken for it",
+                      topic->without_stamp,
+                      topic->name));
+    }
+    if (topic->broken > 0) {
+      info.notes.push_back(fmt::format(
+          "{} messages of {} are damaged and are left out", topic->broken, topic->name));
+    }
+    if (topic->again > 0) {
+      info.notes.push_back(
+          fmt::format("{} images of {} have the stamp of another one and are left "
+                      "out",
+                      topic->again,
+                      topic->name));
+    }
+  }
+  info.notes.push_back(fmt::format("topics: {}", fmt::join(names, ", ")));
+  std::vector<const RecordedTopic*> others;
+  for (const RecordedTopic& topic : topics.images) {
+    if (std::find(used.begin(), used.end(), &topic) == used.end()) others.push_back(&topic);
+  }
+  if (!others.empty()) {
+    info.notes.push_back("topics of images that are not used: " + ListOfTopics(others));
+  }
+}
+
+// Adds a note if depth is in the frame of another camera: the default of drivers, unless they
+// register it to the image.
+void NoteFrames(const RecordedTopic& image, const RecordedTopic& depth, DatasetInfo& info) {
+  if (image.frame.empty() || depth.frame.empty() || image.frame == depth.frame) return;
+  info.notes.push_back(fmt::format(
+      "the depth of {} is in the frame {}, its image in {}: depth must be registered to "
+      "the image",
+      depth.name,
+      Printable(depth.frame),
+      Printable(image.frame)));
+}
+
+// Returns the brightest level of an image of 16 bits and one channel; nullopt for others.
+std::optional<int> BrightestOf(const Recording& file, const StoredMessage& place) {
+  const auto bytes = file.Message(place);
+  if (!bytes) return std::nullopt;
+  const auto image = ParseImage(*FormOf(file.channels()[place.channel]), *bytes);
+  if (!image) return std::nullopt;
+  return image->compressed ? BrightestOf16Bits(image->data) : BrightestOf16Bits(PixelsOf(*image));
+}
+
+// Returns the number of used bits of 16-bit grey levels: those of the brightest level of some
+// frames spread over the recording, rounded up to 8, 10, 12, 14 or 16. ROS has no field for it.
+// Adds a note. Returns nullopt if the first frame has no 16-bit levels.
+std::optional<int> BitsOf(const Recording& file,
+                          const std::vector<FrameMessages>& frames,
+                          DatasetInfo& info) {
+  constexpr std::size_t kFrames = 16;
+  constexpr int kMostBits = 16;
+  int brightest = -1;
+  std::size_t images = 0;
+  const auto look = [&](const StoredMessage& place) {
+    const auto level = BrightestOf(file, place);
+    brightest = std::max(brightest, level.value_or(-1));
+    images += level ? 1 : 0;
+  };
+  for (std::size_t i = 0; i < std::min(kFrames, frames.size()); ++i) {
+    const FrameMessages& frame = frames[i * frames.size() / std::min(kFrames, frames.size())];
+    look(frame.left);
+    if (frame.right) look(*frame.right);
+    if (images == 0) return std::nullopt;
+  }
+  if (images == 0) return std::nullopt;
+  int bits = 8;
+  while (bits < kMostBits && brightest >> bits > 0) bits += 2;
+  info.notes.push_back(fmt::format(
+      "the images have 16 bits, of which {} are used (the brightest level of {} images is "
+      "{}): levels are divided by {}",
+      bits,
+      images,
+      brightest,
+      1 << (bits - 8)));
+  return bits;
+}
+
+std::optional<RecordedCamera> FindCameraInfo(const RecordedTopics& topics,
+                                             const RecordedTopic& image) {
+  const auto* found = CalibrationFor(topics, image);
+  if (found == nullptr || !IsCalibrated(found->second)) return std::nullopt;
+  return RecordedCamera{found->second,
+                        topics.file->path().string() + ": " + Printable(found->first),
+                        IsRectifiedByName(image.name)};
+}
+
+std::string NoCameraInfo(const fs::path& path, const RecordedTopic& image) {
+  return fmt::format(
+      "{}: expected a calibration of {} (sensor_msgs/CameraInfo), found none: give --camera FILE, "
+      "or put a camera.yaml beside the file (built-in cameras: {})",
+      path.string(),
+      Printable(image.name),
+      fmt::join(BuiltInCameras(), ", "));
+}
+
+std::optional<CameraFile> ReadCalibration(const RecordedTopics& topics,
+                                          const ChosenTopics& chosen,
+                                          SensorKind sensor,
+                                          const DatasetOptions& options) {
+  const fs::path& path = topics.file->path();
+  std::error_code error;
+  const fs::path folder = fs::is_directory(path, error) ? path : path.parent_path();
+  if (auto given = GivenCamera(folder, options, sensor)) return given;
+  const bool stereo = sensor == SensorKind::kStereo;
+  const std::optional<RecordedCamera> left = FindCameraInfo(topics, *chosen.left);
+  const std::optional<RecordedCamera> right =
+      stereo ? FindCameraInfo(topics, *chosen.right) : std::nullopt;
+  if (!left || (stereo && !right)) {
+    if (options.allow_missing_camera) return std::nullopt;
+    throw InputError(NoCameraInfo(path, left ? *chosen.right : *chosen.left));
+  }
+  CameraFile camera{CalibrationOf(*left, right), left->source};
+  if (right) camera.source += " and " + CalibrationFor(topics, *chosen.right)->first;
+  return camera;
+}
+
+std::vector<SensorKind> Available(const ChosenTopics& chosen) {
+  std::vector<SensorKind> available;
+  if (chosen.right != nullptr) available.push_back(SensorKind::kStereo);
+  if (chosen.depth != nullptr) available.push_back(SensorKind::kRgbd);
+  available.push_back(SensorKind::kMono);
+  return available;
+}
+
+// Sets the depth factor. Depth in metres needs none, whatever the camera file says.
+void SetDepthFactor(const RecordedTopic& depth, DatasetInfo& info) {
+  std::optional<double>& factor = info.calibration.depth_factor;
+  if (IsInMetres(depth.encoding)) {
+    factor = 1;
+  } else if (!factor) {
+    factor = kMillimetres;
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Dataset> OpenRecording(const fs::path& path,
+                                       DatasetFormat format,
+                                       const DatasetOptions& options) {
+  RecordedTopics topics = ReadTopics(path, format);
+  const ChosenTopics chosen = ChooseTopics(topics, options.topics, options.sensor);
+  DatasetInfo info = DescribeDataset(path, format, Available(chosen), options);
+  info.notes = topics.notes;
+  const auto camera = ReadCalibration(topics, chosen, info.sensor, options);
+  info.has_calibration = false;
+  if (camera) UseCamera(*camera, info);
+  AddGroundTruth({}, options, info);
+  if (info.sensor == SensorKind::kRgbd) SetDepthFactor(*chosen.depth, info);
+  std::vector<FrameMessages> frames;
+  std::vector<const RecordedTopic*> used = {chosen.left};
+  if (info.sensor == SensorKind::kMono) {
+    for (const RecordedImage& image : chosen.left->images) {
+      info.stamps_ns.push_back(image.stamp_ns);
+      frames.push_back({image.place, std::nullopt, std::nullopt});
+    }
+  } else {
+    used.push_back(info.sensor == SensorKind::kStereo ? chosen.right : chosen.depth);
+    frames = Join(*chosen.left, *used.back(), info);
+    if (info.sensor == SensorKind::kRgbd) NoteFrames(*chosen.left, *chosen.depth, info);
+  }
+  NoteTopics(topics, used, info);
+  NoteRate(info);
+  const std::optional<int> bits = BitsOf(*topics.file, frames, info);
+  auto dataset = std::make_unique<RecordedDataset>(
+      std::move(info), std::move(topics.file), std::move(frames), bits);
+  CheckFirstFrame(*dataset);
+  return dataset;
+}
+
+}  // namespace plumbline

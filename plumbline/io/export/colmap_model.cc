@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/export/colmap_model.h"
+
+#include "plumbline/base/byte_stream.h"
+#include "plumbline/io/atomic_file.h"
+#include "plumbline/map/reprojection.h"
+
+#include <cstddef>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+namespace plumbline {
+namespace {
+
+constexpr double kHalfPixel = 0.5;  // COLMAP counts pixels from the corner of the image
+constexpr Color kUnknownColor{128, 128, 128};
+
+ColmapModel::Image ImageOf(const KeyFrame& keyframe, const std::string& name) {
+  ColmapModel::Image image{ColmapImageId(keyframe.id), keyframe.frame.cam_from_world, name, {}};
+  for (const PointFeature& feature : keyframe.frame.features().points) {
+    image.keypoints.push_back({feature.px + Eigen::Vector2d::Constant(kHalfPixel)});
+  }
+  return image;
+}
+
+// Returns the point with its views; nullopt if there are too few for COLMAP.
+std::optional<ColmapModel::Point> PointOf(const SavedMap& saved, const MapPoint& point) {
+  constexpr std::size_t kMinViews = 2;
+  ColmapModel::Point result;
+  result.id = point.id.value + 1;
+  result.position = point.position;
+  for (const auto& [keyframe, feature] : point.observations) {
+    const Frame& frame = saved.map.Find(keyframe)->frame;
+    if (!ReprojectionError(saved.camera, frame, feature, point.position)) continue;
+    result.track.push_back({ColmapImageId(keyframe), static_cast<std::uint32_t>(feature)});
+  }
+  if (result.track.size() < kMinViews) return std::nullopt;
+  result.error = *MeanReprojectionError(saved.camera, saved.map, point);
+  return result;
+}
+
+// Appends the shortest text that gives each number back exactly.
+template <class... Numbers>
+void Append(std::string& text, const Numbers&... numbers) {
+  std::size_t place = 0;
+  (fmt::format_to(std::back_inserter(text), "{}{}", place++ == 0 ? "" : " ", numbers), ...);
+}
+
+std::string CamerasText(const ColmapModel& model) {
+  const ColmapModel::Camera& c = model.camera;
+  std::string text =
+      "# Cameras, one line each: CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n"
+      "# Number of cameras: 1\n";
+  Append(text, ColmapModel::kCameraId, "PINHOLE", c.width, c.height, c.fx, c.fy, c.cx, c.cy);
+  return text + "\n";
+}
+
+std::string ImagesText(const ColmapModel& model) {
+  std::string text = fmt::format(
+      "# Images, two lines each: IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME\n"
+      "#                         POINTS2D[] as (X, Y, POINT3D_ID)\n"
+      "# Number of images: {}\n",
+      model.images.size());
+  for (const ColmapModel::Image& image : model.images) {
+    const Eigen::Quaterniond& q = image.cam_from_world.rotation;
+    const Eigen::Vector3d& t = image.cam_from_world.translation;
+    Append(text, image.id, q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z());
+    text += ' ';
+    Append(text, ColmapModel::kCameraId, image.name);
+    text += '\n';
+    for (std::size_t i = 0; i < image.keypoints.size(); ++i) {
+      const ColmapModel::Keypoint& keypoint = image.keypoints[i];
+      if (i > 0) text += ' ';
+      Append(text, keypoint.px.x(), keypoint.px.y(), keypoint.point);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string PointsText(const ColmapModel& model) {
+  std::string text = fmt::format(
+      "# 3D points, one line each: POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, "
+      "POINT2D_IDX)\n"
+      "# Number of points: {}\n",
+      model.points.size());
+  for (const ColmapModel::Point& point : model.points) {
+    const Eigen::Vector3d& p = point.position;
+    const Color& c = point.color;
+    Append(text, point.id, p.x(), p.y(), p.z(), int{c.r}, int{c.g}, int{c.b}, point.error);
+    for (const ColmapModel::View& view : point.track) {
+      text += ' ';
+      Append(text, view.image, view.keypoint);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+template <class... Numbers>
+void Put(ByteWriter& writer, const Numbers&... numbers) {
+  (writer(numbers), ...);
+}
+
+std::string CamerasBinary(const ColmapModel& model) {
+  constexpr std::int32_t kPinhole = 1;
+  const ColmapModel::Camera& c = model.camera;
+  ByteWriter writer;
+  Put(writer, std::uint64_t{1}, ColmapModel::kCameraId, kPinhole);
+  Put(writer, static_cast<std::uint64_t>(c.width), static_cast<std::uint64_t>(c.height));
+  Put(writer, c.fx, c.fy, c.cx, c.cy);
+  return writer.Take();
+}
+
+std::string ImagesBinary(const ColmapModel& model) {
+  ByteWriter writer;
+  writer(static_cast<std::uint64_t>(model.images.size()));
+  for (const ColmapModel::Image& image : model.images) {
+    const Eigen::Quaterniond& q = image.cam_from_world.rotation;
+    const Eigen::Vector3d& t = image.cam_from_world.translation;
+    Put(writer, image.id, q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z());
+    writer(ColmapModel::kCameraId);
+    for (const char c : image.name) writer(c);
+    writer('\0');
+    writer(static_cast<std::uint64_t>(image.keypoints.size()));
+    for (const ColmapModel::Keypoint& keypoint : image.keypoints) {
+      Put(writer, keypoint.px.x(), keypoint.px.y(), keypoint.point);
+    }
+  }
+  return writer.Take();
+}
+
+std::string PointsBinary(const ColmapModel& model) {
+  ByteWriter writer;
+  writer(static_cast<std::uint64_t>(model.points.size()));
+  for (const ColmapModel::Point& point : model.points) {
+    const Eigen::Vector3d& p = point.position;
+    const Color& c = point.color;
+    Put(writer, point.id, p.x(), p.y(), p.z(), c.r, c.g, c.b, point.error);
+    writer(static_cast<std::uint64_t>(point.track.size()));
+    for (const ColmapModel::View& view : point.track) Put(writer, view.image, view.keypoint);
+  }
+  return writer.Take();
+}
+
+std::string ImageList(const Map& map, const std::map<KeyFrameId, std::string>& names) {
+  std::string text = fmt::format("{}\n", map.keyframes().size());
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    text += fmt::format("{} {}\n", ColmapImageId(id), names.at(id));
+  }
+  return text;
+}
+
+std::string Detections(const Map& map) {
+  std::string text = fmt::format("{}\n", map.keyframes().size());
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    const std::vector<LineFeature>& lines = keyframe.frame.features().lines;
+    text += fmt::format("{} {}\n", ColmapImageId(id), lines.size());
+    for (const LineFeature& line : lines) {
+      text += fmt::format("{} {} {} {}\n",
+                          line.segment.start.x() + kHalfPixel,
+                          line.segment.start.y() + kHalfPixel,
+                          line.segment.end.x() + kHalfPixel,
+                          line.segment.end.y() + kHalfPixel);
+    }
+  }
+  return text;
+}
+
+std::string Tracks(const Map& map) {
+  std::string text = fmt::format("{}\n", map.lines().size());
+  std::size_t index = 0;
+  for (const auto& [id, line] : map.lines()) {
+    // A keyframe shows a line with one segment.
+    const std::size_t views = line.observations.size();
+    text += fmt::format("{} {} {}\n", index++, views, views);
+    const Segment3 segment = line.Interval();
+    for (const Eigen::Vector3d& end : {segment.start, segment.end}) {
+      text += fmt::format("{} {} {}\n", end.x(), end.y(), end.z());
+    }
+    std::string images, segments;
+    for (const auto& [keyframe, feature] : line.observations) {
+      const char* blank = images.empty() ? "" : " ";
+      images += fmt::format("{}{}", blank, ColmapImageId(keyframe));
+      segments += fmt::format("{}{}", blank, feature);
+    }
+    text += images + "\n" + segments + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+ColmapModel MakeColmapModel(const SavedMap& saved,
+                            const std::map<KeyFrameId, std::string>& names,
+                            const PointColors& colors,
+                            std::span<const PosedImage> others) {
+  const RectifiedCamera& c = saved.camera;
+  ColmapModel model;
+  model.camera = {c.width, c.height, c.fx, c.fy, c.cx + kHalfPixel, c.cy + kHalfPixel};
+  std::map<std::uint32_t, std::size_t> image_of;  // index of the image of each id
+  for (const auto& [id, keyframe] : saved.map.keyframes()) {
+    image_of[ColmapImageId(id)] = model.images.size();
+    model.images.push_back(ImageOf(keyframe, names.at(id)));
+  }
+  std::uint32_t next_id = model.images.empty() ? 1 : model.images.back().id + 1;
+  for (const PosedImage& other : others) {
+    model.images.push_back({next_id++, other.cam_from_world, other.name, {}});
+  }
+  for (const auto& [id, point] : saved.map.points()) {
+    std::optional<ColmapModel::Point> exported = PointOf(saved, point);
+    if (!exported) continue;
+    const auto color = colors.find(id);
+    for (const ColmapModel::View& view : exported->track) {
+      model.images[image_of.at(view.image)].keypoints[view.keypoint].point = exported->id;
+    }
+    exported->color = color == colors.end() ? kUnknownColor : color->second;
+    model.points.push_back(std::move(*exported));
+  }
+  return model;
+}
+
+void WriteColmapText(const std::filesystem::path& folder, const ColmapModel& model) {
+  WriteFileAtomically(folder / "cameras.txt", CamerasText(model));
+  WriteFileAtomically(folder / "images.txt", ImagesText(model));
+  WriteFileAtomically(folder / "points3D.txt", PointsText(model));
+}
+
+void WriteColmapBinary(const std::filesystem::path& folder, const ColmapModel& model) {
+  WriteFileAtomically(folder / "cameras.bin", CamerasBinary(model));
+  WriteFileAtomically(folder / "images.bin", ImagesBinary(model));
+  WriteFileAtomically(folder / "points3D.bin", PointsBinary(model));
+}
+
+void WriteLimapLines(const std::filesystem::path& folder,
+                     const Map& map,
+                     const std::map<KeyFrameId, std::string>& names) {
+  WriteFileAtomically(folder / "image_list.txt", ImageList(map, names));
+  WriteFileAtomically(folder / "detections.txt", Detections(map));
+  WriteFileAtomically(folder / "alltracks.txt", Tracks(map));
+}
+
+void WriteColmapFolder(const std::filesystem::path& folder,
+                       const Map& map,
+                       const ColmapModel& model,
+                       const std::map<KeyFrameId, std::string>& names,
+                       ColmapFiles files) {
+  const std::filesystem::path sparse = folder / "sparse" / "0";
+  MakeFolder(sparse);
+  if (files != ColmapFiles::kBinary) WriteColmapText(sparse, model);
+  if (files != ColmapFiles::kText) WriteColmapBinary(sparse, model);
+  MakeFolder(folder / "lines");
+  WriteLimapLines(folder / "lines", map, names);
+}
+
+}  // namespace plumbline

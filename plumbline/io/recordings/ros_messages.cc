@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/units.h"
+#include "plumbline/io/recordings/byte_cursor.h"
+#include "plumbline/io/recordings/image_message.h"
+
+#include <string_view>
+
+namespace plumbline {
+namespace {
+
+using ByteSpan = std::span<const std::uint8_t>;
+
+constexpr std::size_t kCdrHeader = 4;
+constexpr std::uint32_t kMostCoefficients = 64;
+
+bool IsLittleEndianCdr(ByteSpan bytes) {
+  return bytes.size() >= kCdrHeader && bytes[0] == 0 && bytes[1] == 1;
+}
+
+// Reads the fields of a message in their order.
+class FieldReader {
+ public:
+  FieldReader(bool cdr, ByteSpan bytes) : cdr_(cdr), cursor_(cdr ? bytes.subspan(4) : bytes) {}
+
+  bool ok() const { return cursor_.ok(); }
+
+  std::uint8_t U8() { return cursor_.U8(); }
+  std::uint32_t U32() {
+    Align(4);
+    return cursor_.U32();
+  }
+  double F64() {
+    Align(8);
+    return cursor_.F64();
+  }
+  std::string_view Text() {
+    std::string_view text = cursor_.Text(U32());
+    if (cdr_ && text.ends_with('\0')) text.remove_suffix(1);
+    return text;
+  }
+  ByteSpan Bytes() { return cursor_.Take(U32()); }
+
+  // Reads std_msgs/Header.
+  struct Header {
+    std::int64_t stamp_ns = 0;
+    std::string_view frame;
+  };
+  Header ReadHeader() {
+    if (!cdr_) U32();  // ROS 1 has the number of the message here
+    const std::uint32_t count = U32();
+    // ROS 1 counts seconds without a sign, ROS 2 with one.
+    const std::int64_t seconds = cdr_ ? std::int64_t{static_cast<std::int32_t>(count)} : count;
+    const std::int64_t nanoseconds = U32();
+    return {seconds * kNsPerSecond + nanoseconds, Text()};
+  }
+
+ private:
+  void Align(std::size_t size) {
+    if (cdr_) cursor_.Align(size);
+  }
+
+  bool cdr_;
+  ByteCursor cursor_;
+};
+
+}  // namespace
+
+std::optional<ImageMessage> ParseRosImage(bool cdr, bool compressed, ByteSpan bytes) {
+  if (cdr && !IsLittleEndianCdr(bytes)) return std::nullopt;
+  FieldReader fields(cdr, bytes);
+  ImageMessage image;
+  image.compressed = compressed;
+  const FieldReader::Header header = fields.ReadHeader();
+  image.stamp_ns = header.stamp_ns;
+  image.frame = header.frame;
+  if (!compressed) {
+    image.height = fields.U32();
+    image.width = fields.U32();
+  }
+  image.encoding = fields.Text();
+  if (!compressed) {
+    image.big_endian = fields.U8() != 0;
+    image.step = fields.U32();
+  }
+  image.data = fields.Bytes();
+  return fields.ok() ? std::optional(std::move(image)) : std::nullopt;
+}
+
+std::optional<CalibrationMessage> ParseRosCalibration(bool cdr, ByteSpan bytes) {
+  if (cdr && !IsLittleEndianCdr(bytes)) return std::nullopt;
+  FieldReader fields(cdr, bytes);
+  CalibrationMessage camera;
+  fields.ReadHeader();
+  camera.height = fields.U32();
+  camera.width = fields.U32();
+  camera.distortion_model = fields.Text();
+  const std::uint32_t coefficients = fields.U32();
+  if (coefficients > kMostCoefficients) return std::nullopt;
+  for (std::uint32_t i = 0; i < coefficients; ++i) camera.d.push_back(fields.F64());
+  for (double& number : camera.k) number = fields.F64();
+  for (double& number : camera.r) number = fields.F64();
+  for (double& number : camera.p) number = fields.F64();
+  camera.binning_x = fields.U32();
+  camera.binning_y = fields.U32();
+  camera.roi_x = fields.U32();
+  camera.roi_y = fields.U32();
+  camera.roi_height = fields.U32();
+  camera.roi_width = fields.U32();
+  fields.U8();  // true to rectify the region
+  return fields.ok() ? std::optional(std::move(camera)) : std::nullopt;
+}
+
+}  // namespace plumbline
