@@ -149,7 +149,8 @@ constexpr std::array kEntries = {
           {}},
     Entry{{"map_line_bytes",
            "B",
-           "memory of a line of the map: place, information, looks, list of observations; mean",
+           "memory of a line of the map: position, information, descriptor, list of observations; "
+           "mean",
            kLower},
           {"/line_bytes/map"}},
     Entry{{"adjusted_line_bytes",

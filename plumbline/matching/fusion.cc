@@ -74,8 +74,8 @@ FusionInto::FusionInto(const Map& map, const CameraAndPyramid& imaging, KeyFrame
       imaging_(imaging),
       to_(to),
       target_(&map.Find(to)->frame),
-      point_chooser_(*target_->indexed, kSearch),
-      line_chooser_(*target_->indexed, kSearch),
+      point_matcher_(*target_->indexed, kSearch),
+      line_matcher_(*target_->indexed, kSearch),
       no_point_(target_->points.size(), false),
       no_line_(target_->lines.size(), false) {}
 
@@ -124,20 +124,20 @@ void FusionInto::FuseLines(const Frame& source, MapEdit& edit) {
   }
 }
 
-std::optional<FeatureChoice> FusionInto::Choose(const MapPoint& point) {
+std::optional<FeatureMatch> FusionInto::Choose(const MapPoint& point) {
   const auto [known, is_new] = chosen_by_point_.try_emplace(point.id);
   if (is_new) {
     const auto projected = ProjectPoint(imaging_, target_->cam_from_world, point);
-    if (projected) known->second = point_chooser_.Choose(*projected, no_point_);
+    if (projected) known->second = point_matcher_.Match(*projected, no_point_);
   }
   return known->second;
 }
 
-std::optional<FeatureChoice> FusionInto::Choose(const MapLine& line) {
+std::optional<FeatureMatch> FusionInto::Choose(const MapLine& line) {
   const auto [known, is_new] = chosen_by_line_.try_emplace(line.id);
   if (is_new) {
     const auto projected = ProjectLine(imaging_, target_->cam_from_world, line);
-    if (projected) known->second = line_chooser_.Choose(*projected, no_line_);
+    if (projected) known->second = line_matcher_.Match(*projected, no_line_);
   }
   return known->second;
 }

@@ -27,22 +27,22 @@ class FusionInto {
   MapEdit Fuse(KeyFrameId from);
 
  private:
-  using Choices = std::vector<std::optional<FeatureChoice>>;
+  using Choices = std::vector<std::optional<FeatureMatch>>;
 
   void FusePoints(const Frame& source, MapEdit& edit);
   void FuseLines(const Frame& source, MapEdit& edit);
-  std::optional<FeatureChoice> Choose(const MapPoint& point);
-  std::optional<FeatureChoice> Choose(const MapLine& line);
+  std::optional<FeatureMatch> Choose(const MapPoint& point);
+  std::optional<FeatureMatch> Choose(const MapLine& line);
 
   const Map& map_;
   CameraAndPyramid imaging_;
   KeyFrameId to_;
   const Frame* target_;  // features of to_ in the map, valid during a call
-  PointChooser point_chooser_;
-  LineChooser line_chooser_;
+  PointProjectionMatcher point_matcher_;
+  LineProjectionMatcher line_matcher_;
   const std::vector<bool> no_point_, no_line_;  // all false: no feature counts as taken
-  std::unordered_map<PointId, std::optional<FeatureChoice>> chosen_by_point_;
-  std::unordered_map<LineId, std::optional<FeatureChoice>> chosen_by_line_;
+  std::unordered_map<PointId, std::optional<FeatureMatch>> chosen_by_point_;
+  std::unordered_map<LineId, std::optional<FeatureMatch>> chosen_by_line_;
 };
 
 }  // namespace plumbline

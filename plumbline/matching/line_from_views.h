@@ -37,7 +37,7 @@ std::optional<MapLine> CheckedLineFromViews(const Map& map,
                                             const std::vector<LineViewOf>& views);
 
 // Makes a map line of a piece of a line that views show, with what follows from them: observations,
-// information, looks and viewing direction. Neither id nor creator are set.
+// information, descriptor and viewing direction. Neither id nor creator are set.
 MapLine MapLineFrom(const Map& map,
                     const RectifiedCamera& camera,
                     const std::vector<LineViewOf>& views,

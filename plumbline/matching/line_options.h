@@ -48,7 +48,7 @@ void VisitFields(Visitor&& visit, LineOptions& o) {
         Range{0.01, 10});
   visit("min_length_ratio",
         o.min_length_ratio,
-        "shorter over longer of two lines that are matched by their looks, between keyframes and "
+        "shorter over longer of two lines that are matched by descriptor, between keyframes and "
         "where no pose is predicted (the first paper: 0.8)",
         Range{0, 1});
   visit("rotation_gate",

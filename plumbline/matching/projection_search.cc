@@ -122,8 +122,8 @@ std::optional<ProjectedLine> ProjectLine(const CameraAndPyramid& imaging,
   return ProjectedLine{*segment, line.descriptor};
 }
 
-std::optional<FeatureChoice> PointChooser::Choose(const ProjectedPoint& landmark,
-                                                  const std::vector<bool>& taken) {
+std::optional<ProjectionMatch> PointProjectionMatcher::Match(const ProjectedPoint& landmark,
+                                                          const std::vector<bool>& taken) {
   const Features& features = image_.features;
   const double radius = options_.point_radius_px * landmark.scale;
   image_.point_grid.InWindow(landmark.px, {radius, radius}, &near_);
@@ -140,10 +140,11 @@ std::optional<FeatureChoice> PointChooser::Choose(const ProjectedPoint& landmark
       nearest.best_distance > options_.point_ratio * nearest.second_distance) {
     return std::nullopt;
   }
-  return FeatureChoice{nearest.best, nearest.best_distance};
+  return ProjectionMatch{nearest.best, nearest.best_distance};
 }
 
-LineChooser::LineChooser(const FrameFeatures& image, const ProjectionSearchOptions& options)
+LineProjectionMatcher::LineProjectionMatcher(const FrameFeatures& image,
+                                             const ProjectionSearchOptions& options)
     : lines_(image.features.lines),
       options_(options),
       min_cosine_(math::Cos(Radians(options.line_angle_deg))) {
@@ -153,8 +154,8 @@ LineChooser::LineChooser(const FrameFeatures& image, const ProjectionSearchOptio
   }
 }
 
-std::optional<FeatureChoice> LineChooser::Choose(const ProjectedLine& landmark,
-                                                 const std::vector<bool>& taken) const {
+std::optional<ProjectionMatch> LineProjectionMatcher::Match(const ProjectedLine& landmark,
+                                                         const std::vector<bool>& taken) const {
   const Segment2& predicted = landmark.segment;
   const Eigen::Vector2d direction = predicted.Direction();
   const Eigen::Vector3d infinite = LineThrough(predicted);
@@ -168,10 +169,10 @@ std::optional<FeatureChoice> LineChooser::Choose(const ProjectedLine& landmark,
                   lines_[i].octave);
   }
   if (nearest.best < 0 || nearest.best_distance > options_.line_max_distance) return std::nullopt;
-  return FeatureChoice{nearest.best, nearest.best_distance};
+  return ProjectionMatch{nearest.best, nearest.best_distance};
 }
 
-std::vector<LandmarkMatch> OneToOne(const std::vector<std::optional<FeatureChoice>>& choices,
+std::vector<LandmarkMatch> OneToOne(const std::vector<std::optional<ProjectionMatch>>& choices,
                                     std::size_t feature_count) {
   std::vector<int> owner(feature_count, -1);
   for (std::size_t i = 0; i < choices.size(); ++i) {
@@ -196,10 +197,10 @@ std::vector<LandmarkMatch> MatchProjectedPoints(
     const std::vector<std::optional<ProjectedPoint>>& landmarks,
     const std::vector<bool>& taken,
     const ProjectionSearchOptions& options) {
-  PointChooser chooser(image, options);
-  std::vector<std::optional<FeatureChoice>> choices(landmarks.size());
+  PointProjectionMatcher matcher(image, options);
+  std::vector<std::optional<ProjectionMatch>> choices(landmarks.size());
   for (std::size_t l = 0; l < landmarks.size(); ++l) {
-    if (landmarks[l]) choices[l] = chooser.Choose(*landmarks[l], taken);
+    if (landmarks[l]) choices[l] = matcher.Match(*landmarks[l], taken);
   }
   return OneToOne(choices, image.features.points.size());
 }
@@ -209,10 +210,10 @@ std::vector<LandmarkMatch> MatchProjectedLines(
     const std::vector<std::optional<ProjectedLine>>& landmarks,
     const std::vector<bool>& taken,
     const ProjectionSearchOptions& options) {
-  const LineChooser chooser(image, options);
-  std::vector<std::optional<FeatureChoice>> choices(landmarks.size());
+  const LineProjectionMatcher matcher(image, options);
+  std::vector<std::optional<ProjectionMatch>> choices(landmarks.size());
   for (std::size_t l = 0; l < landmarks.size(); ++l) {
-    if (landmarks[l]) choices[l] = chooser.Choose(*landmarks[l], taken);
+    if (landmarks[l]) choices[l] = matcher.Match(*landmarks[l], taken);
   }
   return OneToOne(choices, image.features.lines.size());
 }

@@ -59,22 +59,21 @@ std::optional<ProjectedLine> ProjectLine(const CameraAndPyramid& imaging,
 std::optional<Segment2> ProjectSegment(const RectifiedCamera& camera, const Segment3& in_camera);
 
 // The best matching feature near the projection of a landmark, with its Hamming distance.
-struct FeatureChoice {
+struct ProjectionMatch {
   int feature = 0;
   int distance = 0;
 };
 
 // Finds the features of one image that match projected points. Reuses its memory. The image must
 // outlive it.
-class PointChooser {
+class PointProjectionMatcher {
  public:
-  PointChooser(const FrameFeatures& image, const ProjectionSearchOptions& options)
+  PointProjectionMatcher(const FrameFeatures& image, const ProjectionSearchOptions& options)
       : image_(image), options_(options) {}
 
   // Returns the best match among features with taken[i] false; nullopt if none is near and similar
   // enough.
-  std::optional<FeatureChoice> Choose(const ProjectedPoint& landmark,
-                                      const std::vector<bool>& taken);
+  std::optional<ProjectionMatch> Match(const ProjectedPoint& landmark, const std::vector<bool>& taken);
 
  private:
   const FrameFeatures& image_;
@@ -85,12 +84,12 @@ class PointChooser {
 // Finds the features of one image that match projected lines: near and parallel to the prediction,
 // overlapping it, with the same direction. Visits all lines of the image, whose directions it
 // computes once.
-class LineChooser {
+class LineProjectionMatcher {
  public:
-  LineChooser(const FrameFeatures& image, const ProjectionSearchOptions& options);
+  LineProjectionMatcher(const FrameFeatures& image, const ProjectionSearchOptions& options);
 
-  std::optional<FeatureChoice> Choose(const ProjectedLine& landmark,
-                                      const std::vector<bool>& taken) const;
+  std::optional<ProjectionMatch> Match(const ProjectedLine& landmark,
+                                    const std::vector<bool>& taken) const;
 
  private:
   struct Place {
@@ -110,7 +109,7 @@ struct LandmarkMatch {
 
 // Assigns a feature chosen by several landmarks to the most similar one (ties: the lower index).
 // The result is ordered by landmark.
-std::vector<LandmarkMatch> OneToOne(const std::vector<std::optional<FeatureChoice>>& choices,
+std::vector<LandmarkMatch> OneToOne(const std::vector<std::optional<ProjectionMatch>>& choices,
                                     std::size_t feature_count);
 
 // Matches each projected point with the most similar feature near it, one to one: a feature chosen
