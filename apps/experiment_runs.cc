@@ -158,7 +158,7 @@ void SayNotes(const PlannedGroup& group, const std::optional<std::string>& data,
   }
   if (data && asked && !found) {
     std::clog << fmt::format(
-        "plumbline: {}: no recorded sequence found; there are rendered ones alone\n", *data);
+        "plumbline: {}: no recorded sequence found; only rendered ones are run\n", *data);
   }
   for (const Plan& plan : group.plans) {
     for (const std::string& note : plan.setting_notes) std::clog << "plumbline: " << note << '\n';

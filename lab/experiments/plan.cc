@@ -205,7 +205,7 @@ Plan MakePlan(const Experiment& experiment, const PlanRequest& request) {
                                     [](const auto& sequence) { return !sequence.rendered; });
   if (!plan.missing.empty()) {
     plan.missing_note = NoSequenceFound(plan, request) +
-                        (plan.found_recorded ? "; left out" : "; there are rendered ones alone");
+                        (plan.found_recorded ? "; left out" : "; only rendered ones are run");
   }
   plan.out = request.out;
   plan.cache = request.sources.cache;

@@ -124,7 +124,7 @@ void FusionInto::FuseLines(const Frame& source, MapEdit& edit) {
   }
 }
 
-std::optional<FeatureMatch> FusionInto::Choose(const MapPoint& point) {
+std::optional<ProjectionMatch> FusionInto::Choose(const MapPoint& point) {
   const auto [known, is_new] = chosen_by_point_.try_emplace(point.id);
   if (is_new) {
     const auto projected = ProjectPoint(imaging_, target_->cam_from_world, point);
@@ -133,7 +133,7 @@ std::optional<FeatureMatch> FusionInto::Choose(const MapPoint& point) {
   return known->second;
 }
 
-std::optional<FeatureMatch> FusionInto::Choose(const MapLine& line) {
+std::optional<ProjectionMatch> FusionInto::Choose(const MapLine& line) {
   const auto [known, is_new] = chosen_by_line_.try_emplace(line.id);
   if (is_new) {
     const auto projected = ProjectLine(imaging_, target_->cam_from_world, line);

@@ -27,12 +27,12 @@ class FusionInto {
   MapEdit Fuse(KeyFrameId from);
 
  private:
-  using Choices = std::vector<std::optional<FeatureMatch>>;
+  using Choices = std::vector<std::optional<ProjectionMatch>>;
 
   void FusePoints(const Frame& source, MapEdit& edit);
   void FuseLines(const Frame& source, MapEdit& edit);
-  std::optional<FeatureMatch> Choose(const MapPoint& point);
-  std::optional<FeatureMatch> Choose(const MapLine& line);
+  std::optional<ProjectionMatch> Choose(const MapPoint& point);
+  std::optional<ProjectionMatch> Choose(const MapLine& line);
 
   const Map& map_;
   CameraAndPyramid imaging_;
@@ -41,8 +41,8 @@ class FusionInto {
   PointProjectionMatcher point_matcher_;
   LineProjectionMatcher line_matcher_;
   const std::vector<bool> no_point_, no_line_;  // all false: no feature counts as taken
-  std::unordered_map<PointId, std::optional<FeatureMatch>> chosen_by_point_;
-  std::unordered_map<LineId, std::optional<FeatureMatch>> chosen_by_line_;
+  std::unordered_map<PointId, std::optional<ProjectionMatch>> chosen_by_point_;
+  std::unordered_map<LineId, std::optional<ProjectionMatch>> chosen_by_line_;
 };
 
 }  // namespace plumbline

@@ -123,7 +123,7 @@ std::optional<ProjectedLine> ProjectLine(const CameraAndPyramid& imaging,
 }
 
 std::optional<ProjectionMatch> PointProjectionMatcher::Match(const ProjectedPoint& landmark,
-                                                          const std::vector<bool>& taken) {
+                                                             const std::vector<bool>& taken) {
   const Features& features = image_.features;
   const double radius = options_.point_radius_px * landmark.scale;
   image_.point_grid.InWindow(landmark.px, {radius, radius}, &near_);
@@ -155,7 +155,7 @@ LineProjectionMatcher::LineProjectionMatcher(const FrameFeatures& image,
 }
 
 std::optional<ProjectionMatch> LineProjectionMatcher::Match(const ProjectedLine& landmark,
-                                                         const std::vector<bool>& taken) const {
+                                                            const std::vector<bool>& taken) const {
   const Segment2& predicted = landmark.segment;
   const Eigen::Vector2d direction = predicted.Direction();
   const Eigen::Vector3d infinite = LineThrough(predicted);

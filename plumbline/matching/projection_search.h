@@ -73,7 +73,8 @@ class PointProjectionMatcher {
 
   // Returns the best match among features with taken[i] false; nullopt if none is near and similar
   // enough.
-  std::optional<ProjectionMatch> Match(const ProjectedPoint& landmark, const std::vector<bool>& taken);
+  std::optional<ProjectionMatch> Match(const ProjectedPoint& landmark,
+                                       const std::vector<bool>& taken);
 
  private:
   const FrameFeatures& image_;
@@ -89,7 +90,7 @@ class LineProjectionMatcher {
   LineProjectionMatcher(const FrameFeatures& image, const ProjectionSearchOptions& options);
 
   std::optional<ProjectionMatch> Match(const ProjectedLine& landmark,
-                                    const std::vector<bool>& taken) const;
+                                       const std::vector<bool>& taken) const;
 
  private:
   struct Place {

@@ -58,7 +58,7 @@ TEST(ExperimentCommand, SaysInOneLineThatAFolderHasNoRecordings) {
   fs::create_directories(folder / "data");
   const Outcome worlds = RunExperiment(folder, "--dry-run");
   EXPECT_EQ(worlds.code, 0) << worlds.err;
-  EXPECT_THAT(worlds.err, HasSubstr("data; there are rendered ones alone\n"));
+  EXPECT_THAT(worlds.err, HasSubstr("data; only rendered ones are run\n"));
   EXPECT_EQ(std::count(worlds.err.begin(), worlds.err.end(), '\n'), 1) << worlds.err;
   const std::string arguments =
       " --dry-run --data " + Quoted(folder / "data") + " --out " + Quoted(folder / "out");

@@ -47,14 +47,6 @@ TEST(OptionsWithoutEffect, IsSilentWhereOptionsHaveOne) {
   EXPECT_THAT(LinesFor({"cutting.method=greedy", "cutting.ends=inverse_depth"}), IsEmpty());
   EXPECT_THAT(LinesFor({"initialization.method=rank1_pairwise"}, "mono"), IsEmpty());
   EXPECT_THAT(LinesFor({"initialization.pairwise.missing=leave_out"}, "mono", "rippl"), IsEmpty());
-  for (const Preset& preset : Presets()) {
-    SlamOptions before, after;
-    OptionTable table(after);
-    LoadPreset(preset.name, table);
-    const char* sensor = preset.needs_stereo ? "stereo" : "mono";
-    EXPECT_THAT(OptionsWithoutEffect(after, DifferentOptions(before, after), sensor), IsEmpty())
-        << preset.name;
-  }
 }
 
 TEST(OptionsWithoutEffect, LeavesOutWhatTheUserHasNotSet) {

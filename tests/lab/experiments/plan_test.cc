@@ -220,7 +220,7 @@ TEST(Plan, NotesWhatIsMissingInOneLine) {
   experiment.sequences = {{"kitti/*"}, {"worlds/room"}};
   const Plan none = MakePlan(experiment, RequestIn(folder));
   EXPECT_EQ(none.missing_note,
-            "pair: no sequence found for kitti/* in " + data + "; there are rendered ones alone");
+            "pair: no sequence found for kitti/* in " + data + "; only rendered ones are run");
   EXPECT_FALSE(none.found_recorded);
 }
 
