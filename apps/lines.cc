@@ -53,7 +53,7 @@ int LinesCommand(std::span<const std::string> arguments) {
   const fs::path sequence = line.Positional(0), run = line.Positional(1);
   const fs::path file = line.Value("--lines").value_or((run / "lines.obj").string());
   const EvaluateOutputs outputs = ReadOutputs(line, {});
-  CheckOutputs(outputs, sequence, {run.string()}, {file});
+  CheckOutputs(outputs, sequence, {file});
   CheckHas(sequence, "lines.csv", " with the true lines of the world");
   CheckHas(run, "trajectory.txt", " of the run whose lines are compared");
   const std::optional<RunLineMap> map = ReadRunLineMap(sequence, run, file);

@@ -34,6 +34,6 @@ SystemStages::SystemStages(const Calibration& calibration,
               PatienceOf(options)),
       relocalizer(imaging,
                   options.tracking,
-                  PoseEstimator(imaging.camera, options.lines, options.cutting)) {}
+                  methods.MakePoseEstimator(imaging.camera, options)) {}
 
 }  // namespace plumbline

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/initialization/reconstruction.h"
 #include "plumbline/initialization/tracks.h"
 
 #include "tests/support/random_geometry.h"
