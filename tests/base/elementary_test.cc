@@ -25,14 +25,14 @@ double Ulps(double value, long double truth) {
   return static_cast<double>(std::abs(value - truth) / std::ldexp(1.0L, exponent - 53));
 }
 
-constexpr int kCount = 50000;
+constexpr int kDraws = 50000;
 
 // The largest error against the long double function of the C library.
 template <class Function, class Truth>
 double WorstOf(Function function, Truth truth, double low, double high) {
   Rng rng(1, "elementary");
   double worst = 0;
-  for (int i = 0; i < kCount; ++i) {
+  for (int i = 0; i < kDraws; ++i) {
     const double x = rng.Uniform(low, high);
     worst = std::max(worst, Ulps(function(x), truth(static_cast<long double>(x))));
   }
@@ -92,7 +92,7 @@ TEST(Elementary, AnglesAreWithinTwoUlps) {
                 math::Acos, [](Long x) { return std::acos(x); }, -1, 1),
             3);
   Rng rng(3, "elementary");
-  for (int i = 0; i < kCount; ++i) {
+  for (int i = 0; i < kDraws; ++i) {
     const double y = std::ldexp(rng.Uniform(-1, 1), static_cast<int>(rng.Index(30)));
     const double x = std::ldexp(rng.Uniform(-1, 1), static_cast<int>(rng.Index(30)));
     EXPECT_LT(Ulps(math::Atan2(y, x), std::atan2(static_cast<Long>(y), static_cast<Long>(x))), 2)
@@ -177,7 +177,7 @@ TEST(Elementary, PowersAreWithinTheirUlps) {
   EXPECT_EQ(math::Pow(2.0, -3), 0.125);
   EXPECT_EQ(math::Pow(0.0, 0), 1);
   Rng rng(4, "elementary");
-  for (int i = 0; i < kCount; ++i) {
+  for (int i = 0; i < kDraws; ++i) {
     const double base = rng.Uniform(0.1, 4);
     const int whole = static_cast<int>(rng.Index(16)) - 4;
     const Long truth = std::pow(static_cast<Long>(base), whole);
@@ -219,7 +219,7 @@ TEST(Elementary, GivesTheSameBitsOnEveryMachine) {
   const auto add = [&](double value) {
     hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001b3U;
   };
-  for (int i = 0; i < kCount; ++i) {
+  for (int i = 0; i < kDraws; ++i) {
     const double x = rng.Uniform(-9, 9);
     const double y = rng.Uniform(0, 9);
     for (const double value : {math::Sin(x), math::Cos(x), math::Tan(x), math::Atan(x)}) add(value);

@@ -10,7 +10,7 @@
 namespace plumbline {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 // What a place looks like.
 Features Place(std::uint64_t number, std::size_t points = 300, std::size_t lines = 60) {

@@ -43,9 +43,9 @@ TEST(RunJournal, IsTheCausalTrajectoryAndTheTableOfARun) {
   const ScratchFolder scratch;
   RunFolder folder(scratch / "out");
   RunJournal journal;
-  for (const FrameRecord& record : run.system().frames()) journal.Add(record);
+  for (const FrameRecord& record : run.result().frames) journal.Add(record);
   EXPECT_FALSE(journal.Write(folder));
-  for (const RunFile& file : PoseFiles(run.system())) file.write(scratch / file.name);
+  for (const RunFile& file : PoseFiles(run.result())) file.write(scratch / file.name);
   for (const char* name : {"trajectory_causal.txt", "frames.csv"}) {
     EXPECT_EQ(Contents(folder.part() / name), Contents(scratch / name)) << name;
   }

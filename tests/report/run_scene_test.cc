@@ -32,7 +32,7 @@ const Rigid3 kUpright{Eigen::Quaterniond(Eigen::AngleAxisd(-M_PI / 2, Eigen::Vec
 TEST(RunScene, IsInTheWorldOfTheGroundTruth) {
   const PosterRun run;
   const TurnedPoster dataset(kUpright);
-  const RunScene scene = MakeRunScene(run.system(), dataset);
+  const RunScene scene = MakeRunScene(run.result(), dataset);
   ASSERT_EQ(scene.maps.size(), 1U);
   const MapScene& map = scene.maps[0];
   ASSERT_EQ(map.poses.size(), 4U);
@@ -50,7 +50,7 @@ TEST(RunScene, IsInTheWorldOfTheGroundTruth) {
 
 TEST(RunScene, WithoutGroundTruthIsInTheWorldOfTheFirstCamera) {
   const PosterRun run;
-  const RunScene scene = MakeRunScene(run.system(), PosterDataset(6, false));
+  const RunScene scene = MakeRunScene(run.result(), PosterDataset(6, false));
   EXPECT_FALSE(scene.maps[0].error);
   EXPECT_TRUE(scene.reference.empty());
   EXPECT_EQ(scene.up, Eigen::Vector3d(0, -1, 0));
@@ -62,14 +62,14 @@ TEST(RunScene, TakesZAsUpForCamerasThatLookDown) {
   // Turned by 45 degrees between two axes: neither is nearest.
   const Rigid3 tilted{Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 4, Eigen::Vector3d::UnitZ())),
                       Eigen::Vector3d::Zero()};
-  EXPECT_EQ(MakeRunScene(run.system(), TurnedPoster(tilted)).up, Eigen::Vector3d(0, 0, 1));
+  EXPECT_EQ(MakeRunScene(run.result(), TurnedPoster(tilted)).up, Eigen::Vector3d(0, 0, 1));
 }
 
 TEST(RunScene, ShowsEveryNthLandmarkOfALargeMap) {
   const PosterRun run;
-  const RunScene all = MakeRunScene(run.system(), PosterDataset(6));
+  const RunScene all = MakeRunScene(run.result(), PosterDataset(6));
   const RunScene some =
-      MakeRunScene(run.system(), PosterDataset(6), {.points = 40, .lines = 2, .reference = 3});
+      MakeRunScene(run.result(), PosterDataset(6), {.points = 40, .lines = 2, .reference = 3});
   ASSERT_GT(all.maps[0].points.size(), 80U);
   EXPECT_EQ(all.maps[0].points.size(), all.maps[0].point_count);
   EXPECT_EQ(some.maps[0].point_count, all.maps[0].point_count);

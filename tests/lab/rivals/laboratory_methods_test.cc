@@ -23,8 +23,15 @@ namespace {
 
 using testing::CutScene;
 
+CuttingSettings SettingsOf(const std::string& method) {
+  CuttingSettings settings;
+  settings.method = method;
+  settings.choose = LaboratoryMethods().choose_features;
+  return settings;
+}
+
 PoseProblem CutBy(const std::string& method, const CutScene& scene) {
-  return scene.Cut(LineWeighting::kNone, {{.method = method}, LaboratoryMethods().choose_features});
+  return scene.Cut(LineWeighting::kNone, SettingsOf(method));
 }
 
 TEST(LaboratoryMethods, AreReadAndRunBySystem) {
@@ -68,9 +75,9 @@ TEST(LaboratoryMethods, OfTheProductCutAsByTheProduct) {
 
 TEST(LaboratoryMethods, KeepThePoseOfExactMeasurements) {
   for (const std::string method : {"greedy_sweeps", "joint", "drop", "best_80_greedy"}) {
-    testing::ExpectPoseOfCutLines({}, {{.method = method}, LaboratoryMethods().choose_features});
+    testing::ExpectPoseOfCutLines({}, SettingsOf(method));
     testing::ExpectPoseOfCutLines(LaboratoryMethods().line_method({.residual = "projected_ends"}),
-                                  {{.method = method}, LaboratoryMethods().choose_features});
+                                  SettingsOf(method));
   }
 }
 
