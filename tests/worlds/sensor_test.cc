@@ -10,7 +10,7 @@
 namespace plumbline {
 namespace {
 
-constexpr int kWidth = 128;
+constexpr int kSensorSize = 128;
 
 struct Statistics {
   double mean = 0, sigma = 0;
@@ -56,7 +56,8 @@ TEST(Expose, BendsOffInsteadOfCutting) {
 TEST(Expose, NoiseGrowsWithTheRootOfTheLight) {
   double last = 0;
   for (const float light : {20.0F, 80.0F, 180.0F}) {
-    const Statistics made = Of(Expose(Image<float>(kWidth, kWidth, light), Flat(1), 1, 1));
+    const Statistics made =
+        Of(Expose(Image<float>(kSensorSize, kSensorSize, light), Flat(1), 1, 1));
     EXPECT_NEAR(made.mean, light, 0.1);
     // Read noise, shot noise, unequal pixels, rounding.
     const double electrons = 12'000 * light / 255;
@@ -69,14 +70,14 @@ TEST(Expose, NoiseGrowsWithTheRootOfTheLight) {
 }
 
 TEST(Expose, PixelsOfOneChipKeepTheirGain) {
-  const Image<float> light(kWidth, kWidth, 200);
+  const Image<float> light(kSensorSize, kSensorSize, 200);
   const auto correlation = [&](std::uint64_t chip) {
     const GrayImage a = Expose(light, Flat(1), 1, 1), b = Expose(light, Flat(1), chip, 2);
     double sum = 0;
-    for (int i = 0; i < kWidth * kWidth; ++i) {
+    for (int i = 0; i < kSensorSize * kSensorSize; ++i) {
       sum += (double(a.data()[i]) - 200) * (double(b.data()[i]) - 200);
     }
-    return sum / (kWidth * kWidth);
+    return sum / (kSensorSize * kSensorSize);
   };
   EXPECT_NEAR(correlation(1), 1.2 * 1.2, 0.3);  // the variance of the gains alone
   EXPECT_NEAR(correlation(2), 0, 0.2);
@@ -116,17 +117,17 @@ TEST(Expose, TheLensSpreadsAPoint) {
 
 TEST(SenseDepth, ErrorsGrowWithTheSquareOfTheDistance) {
   for (const float depth : {1.0F, 3.0F}) {
-    const DepthImage sensed = SenseDepth(DepthImage(kWidth, kWidth, depth), 1, 5);
+    const DepthImage sensed = SenseDepth(DepthImage(kSensorSize, kSensorSize, depth), 1, 5);
     double sum = 0, squares = 0;
-    for (int i = 0; i < kWidth * kWidth; ++i) {
+    for (int i = 0; i < kSensorSize * kSensorSize; ++i) {
       const double error = static_cast<double>(sensed.data()[i] - depth);
       sum += error;
       squares += error * error;
     }
-    const double sigma = std::sqrt(squares / (kWidth * kWidth));
+    const double sigma = std::sqrt(squares / (kSensorSize * kSensorSize));
     const double expected = depth * depth * std::hypot(0.0014, 0.0028 / std::sqrt(12.0));
     EXPECT_NEAR(sigma, expected, 0.15 * expected) << depth;
-    EXPECT_LT(std::abs(sum) / (kWidth * kWidth), 0.3 * expected);
+    EXPECT_LT(std::abs(sum) / (kSensorSize * kSensorSize), 0.3 * expected);
   }
 }
 
