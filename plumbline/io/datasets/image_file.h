@@ -14,9 +14,11 @@
 
 namespace plumbline {
 
+// Size of an image [px].
 struct ImageSize {
   int width = 0, height = 0;
 
+  // Compares width and height.
   friend bool operator==(const ImageSize&, const ImageSize&) = default;
 };
 
