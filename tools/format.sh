@@ -16,7 +16,7 @@ if [[ $version != "$wanted" ]]; then
   exit 1
 fi
 
-mapfile -t files < <(find plumbline worlds lab apps python tests bench fuzz examples ros -name '*.h' -o -name '*.cc' | LC_ALL=C sort)
+mapfile -t files < <(find plumbline worlds lab apps python tests fuzz examples ros -name '*.h' -o -name '*.cc' | LC_ALL=C sort)
 case ${1:-} in
   '') "$program" -i "${files[@]}" ;;
   --check) "$program" --dry-run -Werror "${files[@]}" ;;

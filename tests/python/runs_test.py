@@ -25,8 +25,10 @@ def test_a_run_writes_the_bytes_of_the_program(program, sequence, tmp_path):
                     "features.line_count=100"], check=True)
     run = plumbline.run(sequence, out=tmp_path / "python", features={"line_count": 100})
     for name in SAME:
-        assert (tmp_path / "python" / name).read_bytes() == \
-            (tmp_path / "program" / name).read_bytes(), name
+        written = [(tmp_path / who / name).read_bytes() for who in ("python", "program")]
+        if name == "options.yaml":  # its comments name the methods of the laboratory where that is built
+            written = [[line.partition(b"#")[0].rstrip() for line in text.splitlines()] for text in written]
+        assert written[0] == written[1], name
     assert run.out == str(tmp_path / "python")
     text = (tmp_path / "program" / "trajectory.txt").read_text()
     assert run.trajectory.to_tum() == text

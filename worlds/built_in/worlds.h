@@ -8,7 +8,7 @@
 
 namespace plumbline {
 
-// One function for each world, each in a file of its name; world.cc lists them.
+// One function for each world, each in a file of its name; world_catalog.cc lists them.
 World MakeRoom(std::uint64_t seed);
 World MakeLowTexture(std::uint64_t seed);
 World MakeViconEasy(std::uint64_t seed);
