@@ -62,7 +62,8 @@ def main():
     root = pathlib.Path(__file__).resolve().parent.parent
     files = sorted(path for folder in ("plumbline", "worlds", "lab", "apps")
                    for path in (root / folder).rglob("*")
-                   if path.suffix in (".h", ".cc") and path.name != "elementary.cc")
+                   if path.suffix in (".h", ".cc") and path.name != "elementary.cc"
+                   and root / "lab" / "bench" not in path.parents)  # measures, makes no results
     if sys.argv[1:] == ["--fix"]:
         for path in files:
             fix(path)

@@ -32,8 +32,6 @@ SystemStages::SystemStages(const Calibration& calibration,
               methods.MakePoseEstimator(imaging.camera, options),
               WorldFromFirstCamera(front_end.rectifier()),
               PatienceOf(options)),
-      relocalizer(imaging,
-                  options.tracking,
-                  methods.MakePoseEstimator(imaging.camera, options)) {}
+      relocalizer(imaging, options.tracking, methods.MakePoseEstimator(imaging.camera, options)) {}
 
 }  // namespace plumbline
