@@ -247,32 +247,6 @@ TEST(LiveRun, ShedsNothingAnyMoreWhenTheLoadIsGone) {
   ExpectWholeTrajectory(run);
 }
 
-// Mapping, which could look for the camera in the whole map, does not get to it.
-TEST(LiveRun, FindsALostCameraInAnEarlierSnapshotWhileMappingIsBusy) {
-  constexpr int kAway = 118, kBack = kAway + 3;
-  const MovingPoster poster;
-  SimulatedRun run(
-      {[](int) { return 20; }, [](int frame) { return frame < kAway - 2 ? 20 : 1'000'000; }},
-      [&poster](int i) {
-        if (i < kAway) return poster.Frame(i);
-        SensorFrame frame = i < kBack ? MovingPoster::StrangeFrame(i) : poster.Frame(i - kBack);
-        frame.stamp_ns = MovingPoster::StampNs(i);
-        return frame;
-      });
-  run.Play(kBack + 15);
-  run.Finish();
-  ASSERT_GE(run.result().events.relocalizations.size(), 1U);
-  EXPECT_EQ(run.result().atlas.maps().size(), 1U);
-  const auto& frames = run.frames();
-  for (std::size_t i = kBack + 10; i < frames.size(); ++i) {
-    EXPECT_EQ(frames[i].status, FrameStatus::kTracked) << i;
-  }
-  const StampedPose last = run.result().FinalTrajectory(MapId{0}).back();
-  EXPECT_EQ(last.stamp_ns, MovingPoster::StampNs(kBack + 14));
-  const Eigen::Vector3d expected(14 * MovingPoster::kStep, 0, 0);
-  EXPECT_LT((last.world_from_camera.translation - expected).norm(), 0.02);
-}
-
 // The camera sees another place from frame 30 on, for some frames.
 SimulatedRun::Source AwayFor(const MovingPoster& poster, int frames) {
   return [&poster, frames](int i) {
