@@ -131,7 +131,7 @@ def experiments_in(out):
                 if (folder / "results.json").is_file() and folder.name != "sequences"}
     if of_group:
         return of_group
-    figures = read_json(out / "results.json")
+    figures = read_json(out / "results.json") or read_json(out / "timing.json")  # of times alone: no results
     if not figures:
         sys.exit(f"results: {out}: expected what an experiment or a group of them wrote, found no results")
     return {figures[0]["experiment"]: out}

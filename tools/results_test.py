@@ -73,6 +73,14 @@ class Results(unittest.TestCase):
         for name, folder in results.experiments_in(out).items():
             results.record(name, folder, "plumbline experiment all", "abc")
 
+    def test_an_experiment_of_times_alone_is_taken(self):
+        out = self.root / "out"
+        out.mkdir()
+        (out / "results.json").write_text("[]")
+        (out / "timing.json").write_text(json.dumps([{"experiment": "one", "sequence": "s", "variant": "a",
+                                                      "metric": "track_ms", "value": 1.5, "unit": "ms"}]))
+        self.assertEqual(results.experiments_in(out), {"one": out})
+
     def test_a_table_of_which_nothing_is_kept_says_so(self):
         self.assertEqual(results.fill(write=True), 0)
         self.assertIn("Nothing is kept yet: `tools/results.py make ... one` fills this.", self.page.read_text())
