@@ -207,8 +207,8 @@ def table_of_ratios(name, metrics):
         cells = [cell(whole.get((metric, variant))) for metric in metrics]
         rows.append([variant, *cells, str(entry.get("pairs", 0)), str(entry.get("places", 0))])
     certain = [e for (metric, _), e in whole.items() if metric in metrics and e["low"] is not None and e["low"] < e["high"]]
-    chance = f"Of {len(certain)} comparisons {0.05 * len(certain):.1f} would seem certain by chance alone."
-    return markdown(["variant", *metrics, "pairs", "places"], rows) + ["", chance]
+    chance = ["", f"Of {len(certain)} intervals {0.05 * len(certain):.1f} would leave out 1 by chance alone."] if len(certain) > 1 else []
+    return markdown(["variant", *metrics, "pairs", "places"], rows) + chance
 
 
 # Half of the 95 % interval of the mean of at least two values.
@@ -254,11 +254,18 @@ def table_of_starts(name, _):
     return markdown(["right / wrong", *titles, "right, points of %"], lines)
 
 
+# A dash says that runs failed: ours of a row that was not run are empty.
+def without_dashes(header, row):
+    if not row[-1].startswith("not there"):
+        return row
+    return ["" if title.endswith(", ours") and text == "-" else text for title, text in zip(header, row)]
+
+
 def printed_table(name, metrics):
     for table in read(name, "table")["table"]["printed"]:
         if [table["metric"]] == metrics:
             note = [f"{table['title']}. {table['note']}".strip(), ""]
-            return note + markdown(table["header"], table["rows"])
+            return note + markdown(table["header"], [without_dashes(table["header"], row) for row in table["rows"]])
     sys.exit(f"results: docs/results/{name}.json has no printed table of {' '.join(metrics)}")
 
 
