@@ -10,6 +10,7 @@
 #include "apps/command_outputs.h"
 #include "apps/figure_file.h"
 #include <algorithm>
+#include <fstream>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -55,12 +56,24 @@ bool IsJsonOfEvaluate(const fs::path& file) {
          FileBeginsWith(file, "{\n  \"estimates\": ");
 }
 
+// ToSvg writes this beginning; the numbers in it differ.
+bool IsDrawing(const fs::path& file) {
+  constexpr std::string_view kHead = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"";
+  constexpr std::string_view kGround =
+      "font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+  std::string text(400, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text.starts_with(kHead) && text.find(kGround) != std::string::npos;
+}
+
 // Each output may take the place of files of its own kind only.
 FileKind KindOfOutput(std::string_view option, const fs::path& file) {
   if (option == "--json") return {"JSON of evaluate", "{\n  \"", IsJsonOfEvaluate};
   if (option == "--save-aligned") return {"a trajectory aligned by evaluate", kAlignedHead};
   if (file.extension() == ".png") return {"a PNG file", "\x89PNG\r\n\x1a\n"};
-  return {"a drawing by plumbline", "<svg "};
+  return {"a drawing by plumbline", "<svg ", IsDrawing};
 }
 
 void ReadAligned(const std::string& text,

@@ -217,7 +217,7 @@ bool AreSame(const Rigid3& a, const Rigid3& b) {
 FileKind KindOfExport(ExportFormat format) {
   switch (format) {
     case ExportFormat::kPly:
-      return {"a PLY file by plumbline", "ply\n"};
+      return {"a PLY file by plumbline", "ply\nformat ascii 1.0\ncomment Plumbline map"};
     case ExportFormat::kObj:
       return {"lines that were exported", "# Plumbline line segments"};
     case ExportFormat::kDxf:

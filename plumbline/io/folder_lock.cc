@@ -23,10 +23,23 @@ bool IsFileAt(int file, const std::filesystem::path& path) {
          open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
 
+// Throws InputError for a file of this name that no lock is, since the lock is removed at the end.
+void CheckIsLock(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(path, error);
+  if (!std::filesystem::exists(status)) return;
+  if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(path, error) == 0) {
+    return;
+  }
+  throw InputError(path.string() +
+                   ": expected nothing or the empty file that locks the folder, found another");
+}
+
 }  // namespace
 
 FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& held)
     : path_(folder / ".plumbline-lock") {
+  CheckIsLock(path_);
   // The former holder of the lock may remove the file after it was opened here; then it is opened
   // again.
   while (true) {

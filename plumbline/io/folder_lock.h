@@ -11,9 +11,9 @@ namespace plumbline {
 // folder, which exists only meanwhile. A killed program leaves the file, but no lock.
 class FolderLock {
  public:
-  // Takes the lock without waiting. Throws InputError "<folder>: <held>" if it is taken, and
-  // "cannot write <file>: <reason>" if the file cannot be made. On file systems without locks
-  // nothing is locked, and nothing is thrown.
+  // Takes the lock without waiting. Throws InputError "<folder>: <held>" if it is taken, for a file
+  // of this name that is not empty (it would be lost), and "cannot write <file>: <reason>" if the
+  // file cannot be made. On file systems without locks nothing is locked, and nothing is thrown.
   FolderLock(const std::filesystem::path& folder, const std::string& held);
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;

@@ -244,7 +244,7 @@ void RunFolder::SetPartAside() {
   const auto kept = [&] { return folder_ / fmt::format("interrupted-{}", k); };
   while (IsTaken(kept())) ++k;
   MoveFile(part_, kept());
-  notes_.push_back(fmt::format("{}: an earlier run was killed; what it had written is in {}",
+  notes_.push_back(fmt::format("{}: an earlier run was cut off or failed; what it had written is in {}",
                                folder_.string(),
                                kept().string()));
 }

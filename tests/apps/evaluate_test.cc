@@ -251,6 +251,17 @@ TEST(Evaluate, WritesOverNothingOfTheRun) {
   testing::internal::GetCapturedStdout();
 }
 
+TEST(Evaluate, ReplacesNoDrawingOfOthers) {
+  const ScratchFolder folder;
+  const auto reference = folder.Write("truth.txt", kTum).string();
+  const std::string icon =
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"24\" height=\"24\"/>\n";
+  const std::string file = folder.Write("icon.svg", icon).string();
+  EXPECT_THAT(EvaluateMessage({reference, reference, "--plot", file}),
+              StartsWith("--plot " + file + ": expected "));
+  EXPECT_EQ(Contents(file), icon);
+}
+
 TEST(Evaluate, ReplacesFilesOfTheirKindOnly) {
   const ScratchFolder folder;
   const auto reference = folder.Write("truth.txt", kTum).string();

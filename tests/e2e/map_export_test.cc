@@ -61,6 +61,16 @@ TEST(MapExport, GivesTheFilesOfTheRunAgain) {
   EXPECT_GT(Contents(folder / "map.ply").size(), 2000U);
 }
 
+TEST(MapExport, ReplacesNoPointsOfOthers) {
+  const ScratchFolder folder;
+  const std::string mesh = "ply\nformat ascii 1.0\ncomment VCGLIB generated\nend_header\n";
+  const fs::path file = folder.Write("mesh.ply", mesh);
+  const Outcome outcome =
+      RunProgram(folder, "map export " + Quoted(Posters().map) + " --to ply --out " + Quoted(file));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(Contents(file), mesh);
+}
+
 // Real lines, and the sensors whose images are rectified in other ways.
 // The options that the run had decide about the lines of its map.
 TEST(MapExport, KnowsTheOptionsOfTheRun) {

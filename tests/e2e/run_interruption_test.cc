@@ -224,7 +224,7 @@ TEST(Interruption, AKillLosesNeitherTheEarlierResultsNorTheLastSeconds) {
     const bool told = IsToldOf(out / ".part");
     const Outcome next = RunProgram(folder, RunArguments(sequence, out, "--to 2"));
     EXPECT_EQ(next.code, 0) << next.err;
-    EXPECT_EQ(next.err.find("an earlier run was killed") != std::string::npos, told) << k;
+    EXPECT_EQ(next.err.find("an earlier run was cut off") != std::string::npos, told) << k;
   }
   RecordProperty("kept", kept);
   RecordProperty("replaced", replaced);

@@ -44,6 +44,19 @@ TEST(FolderLock, LeavesTheLockOfANewFolderOfThisName) {
   EXPECT_TRUE(std::filesystem::exists(folder / "a/.plumbline-lock"));
 }
 
+TEST(FolderLock, TakesNoFileOfTheUsersForALock) {
+  const ScratchFolder folder;
+  folder.Write(".plumbline-lock", "my notes");
+  EXPECT_THAT(MessageOf([&] { const FolderLock lock(folder.path(), "in use"); }),
+              testing::HasSubstr("expected nothing or the empty file that locks the folder"));
+  EXPECT_EQ(std::filesystem::file_size(folder / ".plumbline-lock"), 8U);
+  std::filesystem::remove(folder / ".plumbline-lock");
+  std::filesystem::create_symlink(folder / "elsewhere", folder / ".plumbline-lock");
+  EXPECT_THAT(MessageOf([&] { const FolderLock lock(folder.path(), "in use"); }),
+              testing::HasSubstr("found another"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / ".plumbline-lock"));
+}
+
 TEST(FolderLock, SaysWhereItCannotBeMade) {
   const ScratchFolder folder;
   EXPECT_THAT(MessageOf([&] { const FolderLock lock(folder / "none", "in use"); }),
