@@ -244,9 +244,10 @@ void RunFolder::SetPartAside() {
   const auto kept = [&] { return folder_ / fmt::format("interrupted-{}", k); };
   while (IsTaken(kept())) ++k;
   MoveFile(part_, kept());
-  notes_.push_back(fmt::format("{}: an earlier run was cut off or failed; what it had written is in {}",
-                               folder_.string(),
-                               kept().string()));
+  notes_.push_back(
+      fmt::format("{}: an earlier run was cut off or failed; what it had written is in {}",
+                  folder_.string(),
+                  kept().string()));
 }
 
 // Removes the folders that this made, as far as they are empty.
