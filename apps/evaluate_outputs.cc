@@ -6,6 +6,7 @@
 #include "plumbline/base/input_file.h"
 #include "plumbline/io/datasets/path_overlap.h"
 #include "plumbline/io/trajectory_io.h"
+#include "plumbline/report/figure.h"
 
 #include "apps/command_outputs.h"
 #include "apps/figure_file.h"
@@ -56,16 +57,13 @@ bool IsJsonOfEvaluate(const fs::path& file) {
          FileBeginsWith(file, "{\n  \"estimates\": ");
 }
 
-// ToSvg writes this beginning; the numbers in it differ.
+// Returns true if the file begins as ToSvg writes it.
 bool IsDrawing(const fs::path& file) {
-  constexpr std::string_view kHead = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"";
-  constexpr std::string_view kGround =
-      "font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
   std::string text(400, '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  return text.starts_with(kHead) && text.find(kGround) != std::string::npos;
+  return text.starts_with(kSvgHead) && text.find(kSvgGround) != std::string::npos;
 }
 
 // Each output may take the place of files of its own kind only.

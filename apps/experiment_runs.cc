@@ -148,7 +148,7 @@ void SayNotes(const Plan& plan, bool quiet) {
   for (const std::string& note : plan.setting_notes) std::clog << "plumbline: " << note << '\n';
 }
 
-// The same for a group. Its report lists the sequences that are missing.
+// Reports notes of all plans of a group; missing sequences are listed in the group's report.
 void SayNotes(const PlannedGroup& group, const std::optional<std::string>& data, bool quiet) {
   if (quiet) return;
   bool asked = false, found = false;  // for and of recorded sequences

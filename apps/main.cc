@@ -115,10 +115,10 @@ void OpenStandardStreams() {
   }
 }
 
-// Libraries that decode images and videos write to standard error on their own ("libpng warning:
-// ...", "moov atom not found"), without the name of the file and beside the program's message. What
-// they write to `stderr` and std::cerr is dropped, unless the environment sets the level of
-// OpenCV's log. The program itself writes to std::clog, which keeps the stream.
+// Libraries that decode images and videos write messages to standard error ("libpng warning: ...",
+// "moov atom not found"), without the name of the file and beside the program's message. Messages
+// to `stderr` and std::cerr are dropped, unless the environment sets the level of OpenCV's log. The
+// program itself writes to std::clog, which keeps the stream.
 void DropMessagesOfLibraries() {
   std::clog.tie(&std::cout);
   // NOLINTNEXTLINE(concurrency-mt-unsafe): there is one thread yet

@@ -285,7 +285,7 @@ std::vector<RunInput> InputsOf(const CommandLine& line, const Dataset& dataset) 
   return inputs;
 }
 
-// What is known of the map that is gone on in.
+// The map that the run continues: who made it, and remarks for the user.
 struct LoadedMap {
   std::size_t sessions = 0;        // that made it
   std::vector<std::string> notes;  // System::Continue

@@ -49,9 +49,8 @@ std::string ToSvg(const Figure& figure) {
   const auto color = [&svg](const Figure::Color& c) -> std::ostream& {
     return svg << "rgb(" << int{c.r} << ',' << int{c.g} << ',' << int{c.b} << ')';
   };
-  svg << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << figure.width << "\" height=\""
-      << figure.height << "\" viewBox=\"0 0 " << figure.width << ' ' << figure.height
-      << "\" font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+  svg << kSvgHead << figure.width << "\" height=\"" << figure.height << "\" viewBox=\"0 0 "
+      << figure.width << ' ' << figure.height << "\" " << kSvgGround;
   // Lines of one look that follow each other are one path, which keeps files of thousands small.
   for (std::size_t i = 0; i < figure.lines.size();) {
     const Figure::Polyline& first = figure.lines[i];

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -36,6 +37,11 @@ struct Figure {
   std::vector<Text> texts;
 };
 
+// Beginning of what ToSvg writes, and the end of the first two lines; sizes stand in between. They
+// tell our drawings from those of other programs.
+inline constexpr std::string_view kSvgHead = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"";
+inline constexpr std::string_view kSvgGround =
+    "font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
 // Returns the figure as a self-contained SVG document with white background.
 std::string ToSvg(const Figure& figure);
 

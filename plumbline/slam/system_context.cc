@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-// What a system knows of its maps: context for map files, reading them, the result of the run.
+// Functions of System about its maps: context for map files, reading maps, the result of the run.
 #include "plumbline/base/error.h"
 #include "plumbline/map/byte_format.h"
 #include "plumbline/slam/atlas_context.h"

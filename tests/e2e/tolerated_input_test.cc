@@ -220,7 +220,7 @@ TEST(ToleratedInput, ADamagedImageIsOneLine) {
   EXPECT_THAT(outcome.err, StartsWith("plumbline: frame 3 skipped: "));
   EXPECT_THAT(outcome.err, HasSubstr("\nplumbline: frame 5 skipped: "));
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 2) << outcome.err;
-  // What is dropped is there for those who ask.
+  // Dropped messages are shown if the environment asks for them.
   const Outcome all = RunProgram(folder, run, "OPENCV_LOG_LEVEL=ERROR ");
   EXPECT_THAT(all.err, HasSubstr("imdecode_"));
   EXPECT_THAT(all.err, HasSubstr("libpng"));

@@ -32,7 +32,7 @@ GrayImage Noise(Rng& rng, int width, int height) {
   return image;
 }
 
-// By maps in fixed point, as ours.
+// OpenCV's result with maps in fixed point, which Rectifier has as well.
 cv::Mat Remapped(const GrayImage& from, const Image<float>& x, const Image<float>& y) {
   cv::Mat px, fraction, result;
   cv::convertMaps(AsMat(x), AsMat(y), px, fraction, CV_16SC2, false);

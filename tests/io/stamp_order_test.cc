@@ -69,7 +69,7 @@ TEST(PairByStamp, JoinsWhatIsNearestToEachOther) {
               ElementsAre(Pair(0, 0), Pair(1, 1), Pair(2, 2)));
   // 206 is the nearest to 200 and to 210, which is the nearer one.
   EXPECT_THAT(PairByStamp({200, 210}, {206}, 10), ElementsAre(Pair(1, 0)));
-  // Of two that are equally near the earlier one.
+  // The earlier one wins if two are equally near.
   EXPECT_THAT(PairByStamp({200}, {195, 205}, 10), ElementsAre(Pair(0, 0)));
 }
 

@@ -239,7 +239,7 @@ TEST_F(UndoLoopTest, GivesBackTheLandmarksThatWereFused) {
   scene_.map.Apply(UndoLoop(scene_.map, closer_->loops().front()));
   scene_.map.CheckInvariants();
   EXPECT_FALSE(AreTied(scene_.map));
-  // What the surroundings do not show stays one.
+  // Points outside the surroundings stay merged.
   EXPECT_GT(static_cast<double>(scene_.map.points().size()),
             static_cast<double>(points) - 0.1 * first.merged_points);
   EXPECT_LE(scene_.map.points().size(), points);
