@@ -25,13 +25,17 @@ function(plumbline_optimize target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-O${level}>)
 endfunction()
 
+# Each level of optimization has headers of its own: GCC 12 gives a file the level of the headers that it uses.
 if(PLUMBLINE_PRECOMPILED_HEADERS)
   plumbline_precompile(plumbline_module_headers ON "" "${precompiled_headers}")
+  plumbline_precompile(plumbline_quick_module_headers ON "" "${precompiled_headers}")
+  plumbline_optimize(plumbline_quick_module_headers 1)
   if(PLUMBLINE_TESTS)
     set(test_headers "${precompiled_headers};<gmock/gmock.h>;<gtest/gtest.h>")
     plumbline_precompile(plumbline_test_headers OFF GTest::gmock "${test_headers}")
     plumbline_optimize(plumbline_test_headers 0)
     plumbline_precompile(plumbline_long_test_headers OFF GTest::gmock "${test_headers}")
+    plumbline_optimize(plumbline_long_test_headers 1)
   endif()
 endif()
 

@@ -7,16 +7,22 @@
 
 namespace plumbline {
 
+namespace {
+
+// A matrix of any size up to 9 rows, without memory from the heap.
+using UpTo9 = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 9, 9>;
+
+}  // namespace
+
 template <int N>
 Eigenpairs<N> EigenpairsOf(const Eigen::Matrix<double, N, N>& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> solver(symmetric);
+  const Eigen::SelfAdjointEigenSolver<UpTo9> solver{UpTo9(symmetric)};
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
 template <int N>
 Eigen::Matrix<double, N, 1> EigenvaluesOf(const Eigen::Matrix<double, N, N>& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>>(symmetric,
-                                                                    Eigen::EigenvaluesOnly)
+  return Eigen::SelfAdjointEigenSolver<UpTo9>(UpTo9(symmetric), Eigen::EigenvaluesOnly)
       .eigenvalues();
 }
 
@@ -35,16 +41,15 @@ template Eigen::Matrix<double, 9, 1> EigenvaluesOf(const Eigen::Matrix<double, 9
 template <int N>
 Eigen::Matrix<double, N, 1> SolveSymmetric(const Eigen::Matrix<double, N, N>& matrix,
                                            const Eigen::Matrix<double, N, 1>& right) {
-  return Eigen::LDLT<Eigen::Matrix<double, N, N>, Eigen::Lower>(matrix).solve(right);
+  return Eigen::LDLT<UpTo9, Eigen::Lower>(UpTo9(matrix)).solve(UpTo9(right));
 }
 
 template <int N>
 std::optional<Eigen::Matrix<double, N, N>> InverseOfInformation(
     const Eigen::Matrix<double, N, N>& information, double min_rcond) {
-  using Square = Eigen::Matrix<double, N, N>;
-  const Eigen::LLT<Square> factor(information);
+  const Eigen::LLT<UpTo9> factor{UpTo9(information)};
   if (factor.info() != Eigen::Success || !(factor.rcond() > min_rcond)) return std::nullopt;
-  return Square(factor.solve(Square::Identity()));
+  return Eigen::Matrix<double, N, N>(factor.solve(UpTo9(UpTo9::Identity(N, N))));
 }
 
 template Eigen::Matrix<double, 3, 1> SolveSymmetric(const Eigen::Matrix<double, 3, 3>&,

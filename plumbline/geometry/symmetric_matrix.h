@@ -8,9 +8,9 @@
 
 namespace plumbline {
 
-// Small symmetric matrices, decomposed by Eigen. Each size is compiled once, in
-// symmetric_matrix.cc, since each instantiation takes a compiler up to five seconds. Only the lower
-// triangle of a matrix is read.
+// Small symmetric matrices, decomposed by Eigen. One decomposition in symmetric_matrix.cc serves
+// all sizes, since each instantiation takes a compiler up to ten seconds. Only the lower triangle
+// of a matrix is read.
 
 // Eigenvalues and eigenvectors, by Eigen's SelfAdjointEigenSolver.
 template <int N>
