@@ -412,7 +412,7 @@ After finish(): all frames with a pose, in the map with this id (None: where mos
       .def("keyframe_trajectory",
            &TrajectoryIn<&RunResult::KeyFrameTrajectory>,
            map,
-           "keyframe_trajectory(map=None) -> Trajectory")
+           "keyframe_trajectory(map=None) -> Trajectory\n\nFinal poses of the keyframes.")
       .def_property_readonly(
           "main_map",
           [](RunningSystem& running) {

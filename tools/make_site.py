@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Makes the site of the documents with mkdocs and its theme material, and checks it.
 
-    tools/make_site.py OUT [--api FOLDER]    the site is in OUT/html; FOLDER: pages of the API reference,
-                                             which become OUT/html/api
+    tools/make_site.py OUT [--api FOLDER] [--python FOLDER]    the site is in OUT/html; with the pages of the API
+                                                               reference, and the reference of the package for
+                                                               Python that lies in FOLDER (python_reference.py)
 
 Pages, pictures and files that pages link to are copied as they lie in the repository, so that links hold. The
 navigation follows docs/README.md: a section for each of its headings, with the pages listed there; a folder's
 README.md brings the pages that it lists. Formulas are set by MathJax (Debian's libjs-mathjax), which is copied
 along. Errors: what mkdocs warns of; a link or an anchor that leads nowhere; anything that a page would load
-from another host. Exit status: 0 made, 1 errors (one a line), 2 a program is missing.
+from another host; a page that the search does not know. Exit status: 0 made, 1 errors (one a line), 2 a program is missing.
 """
 import argparse
 import html.parser
@@ -22,6 +23,7 @@ import urllib.parse
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s#]+)(?:#[^)\s]*)?\)")
+PYTHON_PAGE = "docs/python-reference.md"  # not in the repository
 MKDOCS = "/usr/bin/mkdocs"  # Debian's, which knows Debian's theme, whatever else is in the PATH
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
 # TeX to SVG needs these and no fonts.
@@ -79,8 +81,8 @@ def copy_mathjax(folder):
     (folder / "site.css").write_text(SITE_CSS)
 
 
-def navigation(with_api):
-    """The value of `nav` in mkdocs.yml; the API reference is the last of the first section."""
+def navigation(with_api, with_python):
+    """The value of `nav` in mkdocs.yml; the API references are the last of the first section."""
     sections = re.split(r"^## (.*)$", (ROOT / "docs/README.md").read_text(), flags=re.MULTILINE)[1:]
     result = [{"Plumbline": "README.md"}]
     for title, text in zip(sections[::2], sections[1::2]):
@@ -96,9 +98,33 @@ def navigation(with_api):
             else:
                 entries.append(entry)
         result.append({title: entries})
+    references = next(iter(result[1].values()))
     if with_api:
-        next(iter(result[1].values())).append({"API reference": "api/index.html"})
+        references.append({"API reference": "api/index.html"})
+    if with_python:
+        references.append({"Python reference": PYTHON_PAGE})
     return result
+
+
+def write_python_page(package, page):
+    """Writes the reference of the package for Python; returns the problems."""
+    done = subprocess.run(["/usr/bin/python3", "-B", ROOT / "tools/python_reference.py"], capture_output=True,
+                          text=True, env={"PYTHONPATH": str(package.resolve())})
+    page.write_text(done.stdout)
+    return done.stderr.splitlines() if done.returncode else []
+
+
+def search_problems(site, listed):
+    """The index that the script of the search reads must have words of each page."""
+    file = site / "search/search_index.json"
+    index = json.loads(file.read_text()) if file.exists() else {"docs": []}
+    found = {entry["location"].partition("#")[0] for entry in index["docs"] if entry["text"].strip()}
+    if not list(site.glob("assets/javascripts/workers/search.*.js")):
+        yield "the script of the search is missing"
+    for page in sorted(listed):
+        html = re.sub(r"(^|/)README\.md$", r"\1index.html", page).replace(".md", ".html")
+        if html not in found and html.removesuffix("index.html") not in found:
+            yield f"{page}: the search knows no word of it"
 
 
 class Page(html.parser.HTMLParser):
@@ -145,14 +171,17 @@ def site_problems(site):
             yield f"{path.relative_to(site)}: {address} is loaded from another host"
 
 
-def make(out, api):
+def make(out, api, python):
     shutil.rmtree(out, ignore_errors=True)
     (out / "pages").mkdir(parents=True)
     copy_pages(out / "pages")
     copy_mathjax(out / "pages")
     if api:
         shutil.copytree(api, out / "pages/api")
-    nav = json.dumps(navigation(bool(api)))
+    problems = write_python_page(python, out / "pages" / PYTHON_PAGE) if python else []
+    if problems:
+        return problems
+    nav = json.dumps(navigation(bool(api), bool(python)))
     (out / "mkdocs.yml").write_text((ROOT / "docs/mkdocs.yml").read_text() + "nav: " + nav + "\n")
     done = subprocess.run([MKDOCS, "build", "--quiet", "--config-file", out / "mkdocs.yml"],
                           capture_output=True, text=True)
@@ -161,20 +190,21 @@ def make(out, api):
     listed = set(re.findall(r"[\w/.-]+\.md", nav))
     missing = [f"{page.relative_to(ROOT)} is in no index that docs/README.md leads to" for page in pages()
                if page.relative_to(ROOT).as_posix() not in listed | {"docs/README.md"}]
-    return missing + list(site_problems(out / "html"))
+    return missing + list(site_problems(out / "html")) + list(search_problems(out / "html", listed))
 
 
 def main():
-    parser = argparse.ArgumentParser(usage="tools/make_site.py OUT [--api FOLDER]")
+    parser = argparse.ArgumentParser(usage="tools/make_site.py OUT [--api FOLDER] [--python FOLDER]")
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--api", type=pathlib.Path)
+    parser.add_argument("--python", type=pathlib.Path)
     arguments = parser.parse_args()
     for needed in (MKDOCS, MATHJAX, "/usr/share/mkdocs/themes/material"):
         if not pathlib.Path(needed).exists():
             print(f"make_site.py: {needed} is missing (packages mkdocs, mkdocs-material, libjs-mathjax)",
                   file=sys.stderr)
             return 2
-    problems = make(arguments.out.resolve(), arguments.api)
+    problems = make(arguments.out.resolve(), arguments.api, arguments.python)
     print("\n".join(problems))
     return 1 if problems else 0
 
