@@ -54,7 +54,7 @@ std::optional<InputFrame> RecordedInput::Next(const GoOn& go_on) {
   }
   const ImageFailure& failure = read.error();
   say_(fmt::format("frame {} skipped: {}: {}", position, failure.path.string(), failure.why));
-  next.reason = "image_unreadable";
+  next.reason = failure.reason();
   return next;
 }
 

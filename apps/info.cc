@@ -131,16 +131,11 @@ void PrintGroundTruth(const DatasetInfo& info) {
                   truth.path.string()));
 }
 
-// Returns the fault of an unusable frame; nullopt if it is usable. An image of another size, which
-// ends a run, is a fault.
+// Returns the fault of an unusable frame; nullopt if it is usable.
 std::optional<std::string> FaultOf(const Dataset& dataset, std::size_t i) {
-  try {
-    const Expected<SensorFrame, ImageFailure> frame = dataset.Read(i);
-    if (frame) return std::nullopt;
-    return frame.error().path.string() + ": " + frame.error().why;
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  const Expected<SensorFrame, ImageFailure> frame = dataset.Read(i);
+  if (frame) return std::nullopt;
+  return frame.error().path.string() + ": " + frame.error().why;
 }
 
 void CheckImages(const Dataset& dataset) {
@@ -162,13 +157,9 @@ std::optional<std::string> PairFaultOf(const Dataset& dataset) {
   StereoPairCheck check(rectifier);
   for (std::size_t i = 0; i < dataset.size(); ++i) {
     if (!StereoPairCheck::LooksAt(i)) continue;
-    try {
-      const Expected<SensorFrame, ImageFailure> frame = dataset.Read(i);
-      if (!frame) continue;
-      if (const auto fault = check.Add(i, *frame)) return Describe(*fault);
-    } catch (const InputError&) {
-      continue;  // an image of another size, which --check names
-    }
+    const Expected<SensorFrame, ImageFailure> frame = dataset.Read(i);
+    if (!frame) continue;
+    if (const auto fault = check.Add(i, *frame)) return Describe(*fault);
   }
   return std::nullopt;
 }

@@ -73,8 +73,8 @@ struct Processed {
 // after a signal. Intermediate results are kept in the journal's files, all of them before the
 // final adjustment of the maps.
 //
-// Bad input in the middle, for example an image of another size, ends a run, as does a lack of
-// memory or threads; results so far are kept. Throws if there are none.
+// A lack of memory or threads in the middle ends a run; results so far are kept. Throws if there
+// are none.
 Processed ProcessFrames(
     const RunFrames& input, bool quiet, System& system, RunFolder& folder, KeptViews& views);
 

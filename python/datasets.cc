@@ -21,6 +21,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -62,12 +63,13 @@ std::size_t IndexOf(const Dataset& dataset, py::ssize_t i) {
   return static_cast<std::size_t>(i < 0 ? i + size : i);
 }
 
-// nullopt if an image is missing or damaged; another size is bad input to the whole run.
-std::optional<PyFrame> ReadIfWhole(const Dataset& dataset, py::ssize_t i) {
+// The frame, or the reason why it is to be skipped (ImageFailure::reason).
+std::variant<PyFrame, std::string> ReadOrReason(const Dataset& dataset, py::ssize_t i) {
   const std::size_t index = IndexOf(dataset, i);
   const py::gil_scoped_release release;
   auto frame = dataset.Read(index);
-  return frame ? std::optional(PyFrame{*frame}) : std::nullopt;
+  if (!frame) return frame.error().reason();
+  return PyFrame{*frame};
 }
 
 PyFrame Read(const Dataset& dataset, py::ssize_t i) {
@@ -218,9 +220,9 @@ the order of time, read when they are asked for. len(), indices and iteration.)"
            py::arg("index"),
            "The frame; InputError where an image is missing or damaged, IndexError.")
       .def("_read",
-           &ReadIfWhole,
+           &ReadOrReason,
            py::arg("index"),
-           "The frame; None where an image is missing or damaged, IndexError.")
+           "The frame, or the reason of FrameResult where an image cannot be used; IndexError.")
       .def("_error_options",
            &ErrorOptionsOf,
            "How a run on it is compared with its ground truth: arguments of compare_trajectories.")

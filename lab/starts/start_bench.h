@@ -59,7 +59,7 @@ struct StartResults {
 //   mono       the sequence as monocular
 //   camera     as DatasetOptions::camera, for the truth
 //   progress   after each start; false ends the bench
-//   fails      InputError as FrontEnd and SequenceTruth, or for images of another size
+//   fails      InputError as FrontEnd and SequenceTruth
 StartResults RunStarts(const Dataset& mono,
                        const std::optional<std::string>& camera,
                        const StartOptions& options,

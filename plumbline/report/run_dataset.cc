@@ -43,7 +43,7 @@ RunResult RunDataset(const Dataset& dataset,
     if (frame) {
       pipeline.Feed(*frame);
     } else {
-      pipeline.Skip(dataset.stamp_ns(i), "image_unreadable");
+      pipeline.Skip(dataset.stamp_ns(i), frame.error().reason());
     }
   }
   return pipeline.Finish(stop);

@@ -25,10 +25,10 @@ using FrameObserver = std::function<void(const FrameRecord& record)>;
 //             adjustment of the maps is cut short. May be empty.
 //   returns   trajectories, maps and lines (RunResult), which do not refer to the data set
 //
-// A frame whose image cannot be read is skipped and recorded as image_unreadable. Throws InputError
-// for an invalid calibration and for an image of another size than calibrated. The result has the
-// same bytes as that of the program's `run`, except in live mode. Cost: the time of the run; images
-// are read in the calling thread.
+// A frame whose image cannot be read, or has another size than the calibration, is skipped and
+// recorded with ImageFailure::reason. Throws InputError for an invalid calibration. The result has
+// the same bytes as that of the program's `run`, except in live mode. Cost: the time of the run;
+// images are read in the calling thread.
 RunResult RunDataset(const Dataset& dataset,
                      const SlamOptions& options = {},
                      const FrameObserver& observe = {},

@@ -100,7 +100,7 @@ def _wait_until(due_ns: int) -> None:
 
 
 def _read_live(dataset: Dataset, index: int, stamp_ns: int,
-               schedule: _plumbline._PlaybackSchedule) -> Frame | None:
+               schedule: _plumbline._PlaybackSchedule) -> Frame | str:
     """Reads a frame shortly before it is due, and returns when it is due."""
     _wait_until(schedule.read_at(stamp_ns))
     begin_ns = time.monotonic_ns()
@@ -141,8 +141,8 @@ def _feed(system: System, dataset: Dataset, frames: list[int], teller: _Teller) 
             frame = _read_live(dataset, index, stamp_ns, schedule)
         else:
             frame = dataset._read(index)
-        if frame is None:
-            system.skip(stamp_ns, "image_unreadable")
+        if isinstance(frame, str):
+            system.skip(stamp_ns, frame)
         else:
             system.feed(frame)
         teller.tell()

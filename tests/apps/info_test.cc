@@ -36,6 +36,16 @@ TEST(Info, ChecksAllImages) {
   EXPECT_THAT(out, HasSubstr("checked       2 of 4 frames can be used\n"));
 }
 
+// As it does without a camera file. A run needs it.
+TEST(Info, TellsThatTheRateIsMissing) {
+  const ScratchFolder folder;
+  folder.Write("camera.yaml", "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\n");
+  folder.Write("0.pgm", "P5\n8 6\n255\n" + std::string(48, 'a'));
+  const std::string out = Info({folder.path().string()});
+  EXPECT_THAT(out, HasSubstr("camera        8x6, fx 5 "));
+  EXPECT_THAT(out, HasSubstr("note          the frame rate is not known; "));
+}
+
 TEST(Info, TellsHowImagesAreTurnedAndReduced) {
   const ScratchFolder folder;
   folder.Write("camera.yaml", "size: [80, 60]\nintrinsics: [50, 51, 40, 30]\nrate_hz: 3\n");

@@ -147,19 +147,22 @@ TEST(Run, GoesOnAfterAnUnreadableImage) {
   std::sort(images.begin(), images.end());
   ASSERT_EQ(images.size(), 6U);
   std::ofstream(images[2]) << "not an image";
+  std::ofstream(images[3]) << "P5\n9000 9000\n255\n";
   fs::remove(images[4]);
   const Outcome outcome = RunProgram(
       folder, "run " + Quoted(folder / "sequence") + " --quiet --out " + Quoted(folder / "run"));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr(images[2].filename().string()));
+  EXPECT_THAT(outcome.err, HasSubstr(images[3].string() + ": expected an image of 752x480 pixels"));
   EXPECT_THAT(outcome.err, HasSubstr(images[4].filename().string()));
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 2) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 3) << outcome.err;
   const auto summary = nlohmann::json::parse(Contents(folder / "run/summary.json"));
   EXPECT_EQ(summary["frames"]["in"], 6);
-  EXPECT_EQ(summary["frames"]["skipped"], 2);
-  EXPECT_EQ(summary["frames"]["tracked"], 4);
+  EXPECT_EQ(summary["frames"]["skipped"], 3);
+  EXPECT_EQ(summary["frames"]["tracked"], 3);
   EXPECT_TRUE(summary["accuracy"].is_null());  // no ground truth in the copy
   EXPECT_THAT(Contents(folder / "run/frames.csv"), HasSubstr(",skipped,,image_unreadable,"));
+  EXPECT_THAT(Contents(folder / "run/frames.csv"), HasSubstr(",skipped,,image_size,"));
 }
 
 TEST(Run, TellsWhatServesInPlaceOfRemovedOptions) {

@@ -8,6 +8,8 @@
 #include "tests/io/scratch_folder.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/euroc_calibration.h"
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -124,17 +126,24 @@ TEST(OpenDataset, GroundTruthOfABodyNeedsItsPlace) {
                "file, since these are poses of a body, found none"));
 }
 
-TEST(OpenDataset, RefusesImagesOfAnotherSize) {
+// One of them is a broken image; where there are no others, the calibration is wrong.
+TEST(OpenDataset, RefusesACalibrationOfAnotherSizeButNotAnImage) {
   const ScratchFolder folder;
   WriteEuroc(folder);
-  folder.Write("mav0/cam1/data/1.png", Png(8, 7, 1));
-  EXPECT_THAT(MessageOf([&] { OpenDataset(folder.path()); }),
-              HasSubstr("cam1/data/1.png: expected an image of 8x6 pixels as in the calibration"));
-  folder.Write("mav0/cam1/data/1.png", Png(8, 6, 1));
   folder.Write("mav0/cam0/data/2.png", Png(9, 6, 1));
   const auto dataset = OpenDataset(folder.path());
-  EXPECT_THAT(MessageOf([&] { (void)dataset->Read(1); }),
-              HasSubstr("2.png: expected an image of 8x6 pixels as in the calibration, found 9x6"));
+  const ImageFailure failure = dataset->Read(1).error();
+  EXPECT_EQ(failure.path.filename(), "2.png");
+  EXPECT_EQ(failure.why, "expected an image of 8x6 pixels as in the calibration, found 9x6");
+  EXPECT_STREQ(failure.reason(), "image_size");
+  folder.Write("mav0/cam0/data/2.png", Png(8, 6, 1));
+  folder.Write("mav0/cam1/data/1.png", Png(8, 7, 1));
+  EXPECT_EQ(OpenDataset(folder.path())->Read(0).error().path.filename(), "1.png");
+  for (const auto& image : std::filesystem::directory_iterator(folder / "mav0/cam1/data")) {
+    std::ofstream(image.path(), std::ios::binary) << Png(8, 7, 1);
+  }
+  EXPECT_THAT(MessageOf([&] { OpenDataset(folder.path()); }),
+              HasSubstr("cam1/data/1.png: expected an image of 8x6 pixels as in the calibration"));
 }
 
 TEST(OpenDataset, ReadsKitti) {

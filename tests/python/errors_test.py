@@ -87,12 +87,13 @@ def test_an_image_that_is_gone_is_skipped(sequence, tmp_path):
     assert run.results[3].world_from_camera is None and run.results[3].map is None
 
 
-def test_an_image_of_another_size_ends_a_run_as_it_does_in_the_program(sequence, tmp_path):
+def test_an_image_of_another_size_is_skipped_as_by_the_program(sequence, tmp_path):
     copy = tmp_path / "copy"
     shutil.copytree(sequence, copy)
     images = sorted((copy / "mav0" / "cam0" / "data").iterdir())
     images[3].write_bytes(b"P5\n4 3\n255\n" + bytes(12))
     with pytest.raises(plumbline.InputError, match="as in the calibration, found 4x3"):
-        plumbline.run(copy, stop=6, out=tmp_path / "out")
-    # What was done until then is written.
-    assert len((tmp_path / "out" / "frames.csv").read_text().splitlines()) == 1 + 3
+        plumbline.open(copy)[3]
+    run = plumbline.run(copy, stop=6, out=tmp_path / "out")
+    assert run.results[3].reason == "image_size"
+    assert ",skipped,,image_size," in (tmp_path / "out" / "frames.csv").read_text()

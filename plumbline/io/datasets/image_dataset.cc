@@ -181,24 +181,30 @@ void CheckSecondList(const fs::path& list, const char* images) {
                   images));
 }
 
-ImageFailure FailureOf(const ImageFailure& failure, ImageSize wanted) {
+ImageFailure FailureOf(ImageFailure failure, ImageSize wanted) {
   if (!failure.other_size) return failure;
-  throw InputError(
-      fmt::format("{}: expected an image of {}x{} pixels as in the calibration, "
-                  "found {}x{}",
-                  failure.path.string(),
-                  wanted.width,
-                  wanted.height,
-                  failure.other_size->width,
-                  failure.other_size->height));
+  failure.why = fmt::format("expected an image of {}x{} pixels as in the calibration, found {}x{}",
+                            wanted.width,
+                            wanted.height,
+                            failure.other_size->width,
+                            failure.other_size->height);
+  return failure;
 }
 
 void CheckFirstFrame(const Dataset& dataset) {
-  std::optional<ImageFailure> first;
-  for (std::size_t i = 0; i < dataset.size(); ++i) {
+  constexpr int kManyOfAnotherSize = 10;
+  std::optional<ImageFailure> first, of_another_size;
+  int others = 0;
+  for (std::size_t i = 0; i < dataset.size() && others < kManyOfAnotherSize; ++i) {
     const Expected<SensorFrame, ImageFailure> frame = dataset.Read(i);
     if (frame) return;
     if (!first) first = frame.error();
+    if (!frame.error().other_size) continue;
+    if (!of_another_size) of_another_size = frame.error();
+    ++others;
+  }
+  if (of_another_size) {
+    throw InputError(of_another_size->path.string() + ": " + of_another_size->why);
   }
   throw InputError(fmt::format("{}: expected images, found none of {} that can be read: {}: {}",
                                dataset.info().path.string(),

@@ -43,16 +43,16 @@ struct FrameFiles {
 
 // Makes a data set of image files. files[i] belongs to info.stamps_ns[i]. Listed but missing images
 // become a note. Throws InputError if there are no frames, or if no left, no right or no depth
-// image exists or can be read at all. An image whose size differs from the calibration is an
-// InputError when it is read; the first readable frame is read at once.
+// image exists or can be read at all, or as CheckFirstFrame.
 std::unique_ptr<Dataset> MakeImageDataset(DatasetInfo info, std::vector<FrameFiles> files);
 
-// Returns the failure of one image. Throws InputError if its size differs from `wanted`, that of
-// the calibration, which every image of a sequence must have.
-ImageFailure FailureOf(const ImageFailure& failure, ImageSize wanted);
+// Returns the failure of one image; if its size differs from `wanted`, that of the calibration, the
+// reason tells both.
+ImageFailure FailureOf(ImageFailure failure, ImageSize wanted);
 
 // Reads frames until one can be read, so that a calibration of another size is detected before the
-// run. Throws InputError if none can be read.
+// run. Throws InputError if none can be read, or if the first ten images that can be decoded have
+// another size than the calibration.
 void CheckFirstFrame(const Dataset& dataset);
 
 // Adds a note if the first image has 16 bits; its brightest level is `brightest`

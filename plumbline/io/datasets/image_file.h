@@ -42,6 +42,9 @@ struct ImageFailure {
   std::string why;  // e.g. "the file ends early", without the path
   // Set if the only fault is a size other than the wanted one.
   std::optional<ImageSize> other_size = std::nullopt;
+
+  // The code of tables (FrameRecord::reason): "image_size" or "image_unreadable".
+  const char* reason() const { return other_size ? "image_size" : "image_unreadable"; }
 };
 
 // Returns the size in the header of an image file. Fails like ReadGrayImage.

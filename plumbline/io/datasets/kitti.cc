@@ -56,7 +56,7 @@ KittiLayout FindLayout(const fs::path& path) {
 }
 
 // Returns the size of most images, by a few spread over the sequence, since calib.txt has none. An
-// image of another size is then at fault, even the first.
+// image of another size is then left out, even the first.
 ImageSize SizeOfMost(const fs::path& path,
                      const KittiLayout& layout,
                      const std::vector<FrameFiles>& files) {

@@ -145,8 +145,7 @@ class CaptureSource : public LiveSource {
   }
 
   static LiveEvent Missing(std::int64_t stamp_ns, const ImageFailure& failure) {
-    return MissingFrame{
-        stamp_ns, failure.other_size ? "image_size" : "image_unreadable", failure.why};
+    return MissingFrame{stamp_ns, failure.reason(), failure.why};
   }
 
   CaptureDevices devices_;
