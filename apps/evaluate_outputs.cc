@@ -134,9 +134,9 @@ void CheckOutputs(const EvaluateOutputs& outputs,
   std::error_code error;
   const bool of_data_set = fs::is_directory(reference, error);
   for (const auto& [option, path] : Named(outputs)) {
-    if (of_data_set && fs::exists(path, error) && IsWithin(path, reference)) {
+    if (of_data_set && IsWithin(path, reference)) {
       throw InputError(std::string(option) + " " + path.string() + ": expected a file outside of " +
-                       reference.string() + ", or a new one");
+                       reference.string() + ", which is read");
     }
     CheckOutput(option, path, read, KindOfOutput(option, path));
   }

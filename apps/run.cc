@@ -359,8 +359,8 @@ void SayBefore(const Dataset& dataset,
                const std::vector<std::string>& map_notes,
                bool quiet) {
   for (const std::string& note : folder.notes()) Say(note);
-  for (const std::string& note : map_notes) Say(note);
   if (quiet) return;
+  for (const std::string& note : map_notes) Say(note);
   for (const std::string& note : dataset.info().notes) Say(note);
   if (const auto& fault = dataset.info().ground_truth_fault) Say("no errors: " + *fault);
 }

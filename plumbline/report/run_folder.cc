@@ -69,11 +69,15 @@ void RemovePart(const fs::path& part) {
   fs::remove(part, ignored);
 }
 
-// Returns true if a run left at least one frame in its journal: the first line names the columns.
-bool HoldsFrames(const fs::path& part) {
-  std::ifstream frames(part / "frames.csv");
-  std::string header, row;
-  return std::getline(frames, header) && std::getline(frames, row);
+// Returns true if a run left at least one pose, in any of its maps.
+bool HoldsPoses(const fs::path& part) {
+  for (const std::string& name : NamesIn(part)) {
+    std::error_code error;
+    if (name.starts_with("trajectory") && fs::file_size(part / name, error) > 0 && !error) {
+      return true;
+    }
+  }
+  return false;
 }
 
 // Returns true if a file may be replaced because a run wrote it.
@@ -237,9 +241,9 @@ void RunFolder::Open() {
   MakeFolder(part_);
 }
 
-// Keeps what a killed run left, if it has frames.
+// Keeps what a killed run left, if it has a pose.
 void RunFolder::SetPartAside() {
-  if (!HoldsFrames(part_)) return RemovePart(part_);
+  if (!HoldsPoses(part_)) return RemovePart(part_);
   int k = 1;
   const auto kept = [&] { return folder_ / fmt::format("interrupted-{}", k); };
   while (IsTaken(kept())) ++k;

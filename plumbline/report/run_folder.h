@@ -72,7 +72,7 @@ void CheckNoResult(std::string_view option,
 // takes the place of DIR's. Other files are never touched. Killed at any moment, a run leaves the
 // earlier results unchanged and its own in DIR/.part, or complete results, which the next RunFolder
 // in DIR moves into place. What a killed run left in DIR/.part is kept as DIR/interrupted-1, -2 and
-// so on, unless it processed no frame. One program at a time works in DIR (FolderLock).
+// so on, unless no frame got a pose. One program at a time works in DIR (FolderLock).
 class RunFolder {
  public:
   // Creates DIR if it is missing, and DIR/.part. Throws InputError, with advice, if another run

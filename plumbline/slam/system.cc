@@ -30,6 +30,23 @@ Vector6d LastVelocity(const InitialMap& initial) {
   return LogSe3(last.cam_from_world * Inverse(before.cam_from_world)) / seconds;
 }
 
+// Throws InputError unless a loaded map is of this camera.
+void CheckSameCamera(const RectifiedCamera& of_map, const RectifiedCamera& now) {
+  const bool single = now.baseline == 0;
+  if ((of_map.baseline == 0) != single) {
+    const char* one = "one camera";
+    const char* metric = "a stereo pair or depth";
+    throw InputError(
+        fmt::format("expected a map made with {}, as the images are now, found one "
+                    "made with {}; go on in it with the same sensor",
+                    single ? one : metric,
+                    single ? metric : one));
+  }
+  if (const auto difference = CameraDifference({of_map}, {now})) {
+    throw InputError("expected a map of the same rectified camera, found " + *difference);
+  }
+}
+
 }  // namespace
 
 System::System(const Calibration& calibration,
@@ -269,9 +286,7 @@ std::vector<std::string> System::Continue(SavedAtlas saved, bool read_only) {
   }
   if (saved.atlas.empty()) throw InputError("expected a map to go on in, found none");
   const AtlasContext& context = saved.context;
-  if (const auto difference = CameraDifference({context.camera}, {result_.camera})) {
-    throw InputError("expected a map of the same rectified camera, found " + *difference);
-  }
+  CheckSameCamera(context.camera, result_.camera);
   const double scale = options_.features.orb.scale_factor;
   if (context.octave_scale != scale) {
     throw InputError(fmt::format("features.orb.scale_factor: expected {} as in the map, found {}",

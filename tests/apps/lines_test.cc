@@ -201,6 +201,8 @@ TEST(Lines, NameWhatIsMissingAndWriteOverNothing) {
       {{sequence, folder, "--lines", (run.folder / "no.obj").string()}, "no.obj: no such file"},
       {{sequence, folder, "--plot", "x.gif"}, "ending in .svg or .png"},
       {{sequence, folder, "--plot", image}, "expected a file outside of " + sequence},
+      {{sequence, folder, "--json", sequence + "/new.json"},
+       "expected a file outside of " + sequence},
       {{sequence, folder, "--json", lines}, "--json " + lines + ": expected"}};
   for (const auto& [arguments, message] : cases) {
     EXPECT_THAT(LinesMessage(arguments), HasSubstr(message));

@@ -98,9 +98,23 @@ TEST(MapUse, RefusesWhatIsNoMapOfThisCameraAndTouchesNothing) {
   expect_refused("--map " + Quoted(poster.folder / "other.plb"), "other.plb: expected a map of");
   expect_refused("--localize", "--localize: expected --map FILE");
   expect_refused("--save-every 0", "--save-every: expected");
-  expect_refused("--sensor mono --map " + Quoted(poster.map()), "map.plb: expected a map of");
+  expect_refused("--sensor mono --map " + Quoted(poster.map()),
+                 "map.plb: expected a map made with one camera, as the images are now, found one "
+                 "made with a stereo pair or depth; go on in it with the same sensor");
   expect_refused("--set relocalization.enabled=false --map " + Quoted(poster.map()),
                  "relocalization.enabled");
+}
+
+TEST(MapUse, TellsOfOtherOptionsUnlessItIsToBeQuiet) {
+  const MappedPoster poster;
+  const std::string arguments = "run " + Quoted(poster.sequence) + " --to 4 --map " +
+                                Quoted(poster.map()) + " --set features.point_count=900 --out " +
+                                Quoted(poster.folder / "out");
+  EXPECT_THAT(RunProgram(poster.folder, arguments).err,
+              HasSubstr("the map was made with another front end: "));
+  const Outcome quiet = RunProgram(poster.folder, arguments + " --quiet");
+  EXPECT_EQ(quiet.code, 0);
+  EXPECT_EQ(quiet.err + quiet.out, "");
 }
 
 TEST(MapUse, SavingWhileRunningChangesNoResult) {

@@ -204,7 +204,6 @@ TEST(RunFolder, KeepsWhatAKilledRunLeft) {
     {
       RunFolder killed(out);
       killed.Keep();
-      killed.Write(Text("frames.csv", "frame,timestamp\n0,1.0\n"));
       killed.Write(Text("trajectory_causal.txt", "some of " + kept));
     }
     const RunFolder next(out);
@@ -354,8 +353,8 @@ TEST(CheckFileApart, RefusesToReplaceWhatIsRead) {
   EXPECT_EQ(message(scratch / "database"), "no error");
 }
 
-// Of a run that was killed, or ran out of memory, before its first frame.
-TEST(RunFolder, ForgetsARunThatHadNotGotToAFrame) {
+// Else every run that fails at its start would leave a folder.
+TEST(RunFolder, ForgetsARunThatHadNoPose) {
   const ScratchFolder scratch;
   const fs::path out = scratch / "out";
   WriteRun(out, {"trajectory.txt"}, "old");
@@ -365,7 +364,7 @@ TEST(RunFolder, ForgetsARunThatHadNotGotToAFrame) {
     killed.Write(Text("options.yaml", "slam: {}"));
     killed.Write(Text("trajectory_causal.txt", ""));
     killed.Write(Text("keyframes.txt", ""));
-    killed.Write(Text("frames.csv", "frame,timestamp\n"));
+    killed.Write(Text("frames.csv", "frame,timestamp\n0,1.0\n"));
   }
   ASSERT_TRUE(fs::exists(out / ".part/frames.csv"));
   {
@@ -373,11 +372,12 @@ TEST(RunFolder, ForgetsARunThatHadNotGotToAFrame) {
     EXPECT_THAT(next.notes(), ElementsAre());
   }
   EXPECT_EQ(FilesOf(out), (std::set<std::string>{".plumbline-run", "trajectory.txt"}));
-  // One frame without a pose is something.
+  // A pose in another map than the first is one.
   {
     RunFolder killed(out);
     killed.Keep();
-    killed.Write(Text("frames.csv", "frame,timestamp\n0,1.0\n"));
+    killed.Write(Text("trajectory_causal.txt", ""));
+    killed.Write(Text("trajectory_causal_map1.txt", "1.0 0 0 0 0 0 0 1\n"));
   }
   const RunFolder next(out);
   EXPECT_THAT(next.notes(), ElementsAre(HasSubstr("interrupted-1")));

@@ -67,12 +67,14 @@ std::unique_ptr<Dataset> OpenImageFolder(const fs::path& path, const DatasetOpti
   if (camera) UseCamera(*std::move(camera), info);
   AddGroundTruth({}, options, info);
   if (!info.calibration.rate_hz) {
-    if (info.has_calibration) {
+    if (!options.allow_missing_camera) {
       throw InputError(
           path.string() +
           ": expected rate_hz in the camera file, as images have no times; found none");
     }
-    info.notes.emplace_back("the frame rate is not known; one image a second is assumed");
+    info.notes.emplace_back(
+        "the frame rate is not known; one image a second is assumed (a run needs rate_hz in the "
+        "camera file)");
   }
   const double period_ns = 1e9 / info.calibration.rate_hz.value_or(1);
   std::vector<FrameFiles> files;
