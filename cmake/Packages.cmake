@@ -19,7 +19,7 @@ set(debian_package_zstd "libzstd-dev")
 # What libplumbline-dev depends on: what plumbline-config.cmake looks for, libraries that are linked by
 # name alone, and the package with the library that is loaded for videos.
 function(plumbline_dev_dependencies result)
-  set(packages "libbz2-dev" "liblz4-dev" "libspng-dev" "libturbojpeg0-dev" "libwebp-dev" "plumbline (= ${PROJECT_VERSION})")
+  set(packages "libbz2-dev" "libdeflate-dev" "liblz4-dev" "libspng-dev" "libturbojpeg0-dev" "libwebp-dev" "plumbline (= ${PROJECT_VERSION})")
   if(cutting_testbed IN_LIST PLUMBLINE_MODULES)
     list(APPEND packages "coinor-libipopt-dev" "libnlopt-cxx-dev")
   endif()

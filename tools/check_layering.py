@@ -64,13 +64,14 @@ THIRD_PARTY = {
     "gtest/": None,
     "nlopt": r"lab/cutting_testbed/nlopt_\w+\.cc",
     "nlohmann/": r"(io/\w+|report|viewer|lab/experiments|lab/line_maps)/\w+\.cc",
-    "opencv2/": r"image/(opencv_bridge|opencv_modules|image_codecs)\.h|"
+    "opencv2/": r"image/(opencv_bridge|opencv_modules|image_codecs|plain_png)\.h|"
                 r"(image|features|initialization|io/\w+|io|report|viewer)/\w+\.cc",
     "yaml-cpp/": r"((base|io/cameras|io)/\w+|lab/experiments/(printed_figures|gate))\.cc",
     "libavcodec/": r"image/video_decoder_library\.cc",
     "libavformat/": r"image/video_decoder_library\.cc",
     "libavutil/": r"image/video_decoder_library\.cc",
     "libswscale/": r"image/video_decoder_library\.cc",
+    "libdeflate.h": r"(base/crc32|image/plain_png)\.cc",
     "spng.h": r"image/image_codecs\.cc",
     "turbojpeg.h": r"image/image_codecs\.cc",
     "webp/": r"image/image_codecs\.cc",
@@ -84,6 +85,7 @@ HEAVY_HEADERS = {
     "plumbline/image/image_codecs.h",
     "plumbline/image/opencv_bridge.h",
     "plumbline/image/opencv_modules.h",
+    "plumbline/image/plain_png.h",
     "lab/ceres_reference/ceres_manifolds.h",
     "lab/ceres_reference/ceres_terms.h",
 }

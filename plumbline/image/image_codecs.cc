@@ -3,6 +3,7 @@
 #include "plumbline/image/image_codecs.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/image/plain_png.h"
 
 #include <cstddef>
 #include <cstdlib>
@@ -48,6 +49,7 @@ std::size_t SizeOf(const cv::Mat& image) { return image.total() * image.elemSize
 }  // namespace
 
 cv::Mat DecodePng(std::span<const std::uint8_t> bytes) {
+  if (cv::Mat image = DecodePlainPng(bytes); !image.empty()) return image;
   const Spng context(spng_ctx_new(0));
   PLUMBLINE_CHECK(context != nullptr, "memory for a decoder");
   spng_ihdr header{};

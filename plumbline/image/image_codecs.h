@@ -10,12 +10,13 @@
 
 namespace plumbline {
 
-// Codecs of PNG, JPEG and WebP by libspng, TurboJPEG and libwebp, which are small: OpenCV's own
-// codecs bring a hundred libraries along (opencv_modules.h). Matrix types as of OpenCV's codecs:
-// CV_8UC1, CV_8UC3 (blue, green, red) or CV_16UC1 (PNG only).
+// Codecs of PNG, JPEG and WebP by libdeflate, libspng, TurboJPEG and libwebp, which are small:
+// OpenCV's own codecs bring a hundred libraries along (opencv_modules.h). Matrix types as of
+// OpenCV's codecs: CV_8UC1, CV_8UC3 (blue, green, red) or CV_16UC1 (PNG only).
 
 // Decodes grey images of up to 16 bits and colours of 8 bits; drops alpha. Returns an empty matrix
-// for other kinds of PNG files, and for bytes that libspng refuses.
+// for other kinds of PNG files, and for bytes that libspng refuses. What DecodePlainPng
+// (plain_png.h) decodes does not come to libspng.
 cv::Mat DecodePng(std::span<const std::uint8_t> bytes);
 
 // Decodes grey images and colours; ignores the orientation in the file. Returns an empty matrix for
