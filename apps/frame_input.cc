@@ -35,7 +35,16 @@ RecordedInput::RecordedInput(std::shared_ptr<const Dataset> dataset,
     : dataset_(std::move(dataset)),
       frames_(std::move(frames)),
       live_(mode == RunMode::kLive),
-      say_(std::move(say)) {}
+      say_(std::move(say)) {
+  if (mode == RunMode::kLockstep) ahead_.emplace(*dataset_);
+}
+
+// Reads frame k, after which position_ is that of the next one.
+Expected<SensorFrame, ImageFailure> RecordedInput::Read(std::size_t k) {
+  if (!ahead_) return dataset_->Read(k);
+  return ahead_->Read(
+      k, position_ < frames_.size() ? std::optional(frames_[position_]) : std::nullopt);
+}
 
 std::optional<InputFrame> RecordedInput::Next(const GoOn& go_on) {
   if (position_ >= frames_.size() || !go_on()) return std::nullopt;
@@ -44,7 +53,7 @@ std::optional<InputFrame> RecordedInput::Next(const GoOn& go_on) {
   const std::int64_t stamp_ns = dataset_->stamp_ns(k);
   if (live_ && !WaitUntil(schedule_.ReadAt(stamp_ns), go_on)) return std::nullopt;
   const Clock::time_point begin = Clock::now();
-  auto read = dataset_->Read(k);
+  auto read = Read(k);
   const Clock::time_point due = schedule_.DueOnceRead(stamp_ns, begin, Clock::now());
   if (!(live_ ? WaitUntil(due, go_on) : go_on())) return std::nullopt;
   InputFrame next{stamp_ns, std::nullopt, ""};

@@ -4,6 +4,7 @@
 
 #include "plumbline/image/image.h"
 #include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/datasets/read_ahead.h"
 #include "plumbline/io/live/live_source.h"
 #include "plumbline/io/live/stamp_continuity.h"
 #include "plumbline/report/playback_schedule.h"
@@ -47,7 +48,8 @@ class FrameInput {
 };
 
 // Selected frames of a recording, by index. Live runs get them when they are due, at their original
-// intervals; others as soon as they are read. `go_on` is not called while an image is read.
+// intervals; others as soon as they are read, in lockstep runs ahead, by a thread of their own.
+// `go_on` is not called while an image is read.
 class RecordedInput : public FrameInput {
  public:
   RecordedInput(std::shared_ptr<const Dataset> dataset,
@@ -58,12 +60,15 @@ class RecordedInput : public FrameInput {
   void Delay(std::chrono::steady_clock::duration pause) override { schedule_.Delay(pause); }
 
  private:
+  Expected<SensorFrame, ImageFailure> Read(std::size_t k);
+
   std::shared_ptr<const Dataset> dataset_;
   std::vector<std::size_t> frames_;
   std::size_t position_ = 0;  // of the next frame
   bool live_;
   Say say_;
   PlaybackSchedule schedule_;
+  std::optional<ReadAhead> ahead_;
 };
 
 // Selected frames of a source: every stride-th from `from` to before `to`.

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/report/run_dataset.h"
 
+#include "plumbline/io/datasets/read_ahead.h"
 #include "plumbline/report/playback_schedule.h"
 #include "plumbline/slam/pipeline.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <thread>
 
 namespace plumbline {
@@ -37,11 +39,16 @@ RunResult RunDataset(const Dataset& dataset,
   Pipeline pipeline(system, [&observe](const FrameRecord& record, const FrameView&) {
     if (observe) observe(record);
   });
+  std::optional<ReadAhead> ahead;
+  if (options.slam.mode == RunMode::kLockstep) ahead.emplace(dataset);
   for (std::size_t i = 0; i < dataset.size(); ++i) {
     if (IsToStop(stop)) break;
-    const auto frame = live ? ReadLive(dataset, i, schedule) : dataset.Read(i);
+    const auto next = i + 1 < dataset.size() ? std::optional(i + 1) : std::nullopt;
+    auto frame = live    ? ReadLive(dataset, i, schedule)
+                 : ahead ? ahead->Read(i, next)
+                         : dataset.Read(i);
     if (frame) {
-      pipeline.Feed(*frame);
+      pipeline.Feed(*std::move(frame));
     } else {
       pipeline.Skip(dataset.stamp_ns(i), frame.error().reason());
     }

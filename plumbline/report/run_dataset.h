@@ -27,8 +27,8 @@ using FrameObserver = std::function<void(const FrameRecord& record)>;
 //
 // A frame whose image cannot be read, or has another size than the calibration, is skipped and
 // recorded with ImageFailure::reason. Throws InputError for an invalid calibration. The result has
-// the same bytes as that of the program's `run`, except in live mode. Cost: the time of the run;
-// images are read in the calling thread.
+// the same bytes as that of the program's `run`, except in live mode. Cost: the time of the run. In
+// lockstep mode a thread reads one image ahead.
 RunResult RunDataset(const Dataset& dataset,
                      const SlamOptions& options = {},
                      const FrameObserver& observe = {},
