@@ -115,6 +115,7 @@ std::optional<std::string> DistortionFault(const CameraIntrinsics& in) {
       return fault;
     }
   }
+  if (auto fault = CoefficientFault(in)) return fault;
   const Camera camera(in);
   if (camera.IsIdeal()) return std::nullopt;
   constexpr int kSteps = 8;
@@ -123,7 +124,7 @@ std::optional<std::string> DistortionFault(const CameraIntrinsics& in) {
     for (int column = 0; column <= kSteps; ++column) {
       const Eigen::Vector2d px(static_cast<double>(camera.width() - 1) * column / kSteps,
                                static_cast<double>(camera.height() - 1) * row / kSteps);
-      reached += camera.Unproject(px) ? 1 : 0;
+      reached += camera.Ray(px) ? 1 : 0;
     }
   }
   constexpr int kAll = (kSteps + 1) * (kSteps + 1);

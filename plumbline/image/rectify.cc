@@ -153,7 +153,7 @@ struct Extent {
 };
 
 std::optional<Eigen::Vector2d> RectifiedTangents(const View& view, const Eigen::Vector2d& raw_px) {
-  const std::optional<Eigen::Vector3d> ray = view.camera->Unproject(raw_px);
+  const std::optional<Eigen::Vector3d> ray = view.camera->Ray(raw_px);
   if (!ray) return std::nullopt;
   const Eigen::Vector3d turned = view.rectified_from_raw * *ray;
   if (!(turned.z() > 0)) return std::nullopt;

@@ -63,9 +63,11 @@ Rigid3 TurnedFromStored(const Orientation& orientation) {
 Camera Turned(const Camera& camera, const Orientation& orientation) {
   CameraIntrinsics in = camera.intrinsics();
   // Tangential distortion: p1 bends along y, p2 along x. All else depends on the radius alone.
-  const bool tangential = in.model == DistortionModel::kRadTan;
-  double& p1 = in.distortion[2];
-  double& p2 = in.distortion[3];
+  const bool omni = in.model == DistortionModel::kOmni;
+  const bool tangential =
+      omni || in.model == DistortionModel::kRadTan || in.model == DistortionModel::kRational;
+  double& p1 = in.distortion[omni ? 3 : 2];
+  double& p2 = in.distortion[omni ? 4 : 3];
   if (orientation.transpose) {
     std::swap(in.width, in.height);
     std::swap(in.fx, in.fy);

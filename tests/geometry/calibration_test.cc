@@ -121,6 +121,16 @@ TEST(DistortionFault, TheImageHasRays) {
   }
 }
 
+TEST(DistortionFault, KeepsToTheBoundsOfTheModel) {
+  CameraIntrinsics in = Intrinsics();
+  in.model = DistortionModel::kDoubleSphere;
+  in.distortion = {0.1, 1.5};
+  EXPECT_THAT(DistortionFault(in), Optional(std::string("expected alpha from 0 to 1, found 1.5")));
+  in.model = DistortionModel::kOmni;
+  in.distortion = {1.2, -0.1};
+  EXPECT_EQ(DistortionFault(in), std::nullopt);
+}
+
 TEST(PairFault, TheRightCameraIsOnTheRight) {
   EXPECT_EQ(PairFault(Pair({0.11, 0.001, -0.002}, Turn(1, {0, 1, 0}))), std::nullopt);
   EXPECT_EQ(PairFault(Pair({0.004, 0, 0})), std::nullopt);

@@ -7,8 +7,10 @@
 #include "tests/support/euroc_calibration.h"
 #include "tests/support/jacobian.h"
 #include "tests/support/random_geometry.h"
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -44,8 +46,42 @@ CameraIntrinsics Fisheye() {
           .distortion = {0.0034823894, 0.0007150348, -0.0020532361, 0.00020293673}};
 }
 
+// A camera of 640x480 pixels whose numbers are of the size of real lenses.
+CameraIntrinsics Lens(DistortionModel model,
+                      double focal,
+                      const std::array<double, kMostCoefficients>& distortion) {
+  return {.fx = focal,
+          .fy = 1.01 * focal,
+          .cx = 318.3,
+          .cy = 241.7,
+          .width = 640,
+          .height = 480,
+          .model = model,
+          .distortion = distortion};
+}
+
 std::vector<CameraIntrinsics> AllModels() {
-  return {Pinhole(), TumFr1(), EurocCalibration().left.intrinsics(), Fisheye()};
+  using enum DistortionModel;
+  return {Pinhole(),
+          TumFr1(),
+          EurocCalibration().left.intrinsics(),
+          Fisheye(),
+          // Depth cameras: poles and zeros of the quotient nearly cancel.
+          Lens(kRational, 505, {0.42, -2.51, 0.0008, -0.0004, 1.47, 0.3, -2.33, 1.4}),
+          Lens(kRational, 300, {8.5, 4.2, 0.0002, -0.0001, 0.21, 8.85, 7.06, 1.1}),
+          Lens(kFov, 350, {0.93}),
+          Lens(kDoubleSphere, 220, {-0.18, 0.59}),
+          Lens(kDoubleSphere, 200, {0.1, 0.4}),
+          Lens(kEucm, 230, {0.63, 1.04}),
+          Lens(kEucm, 260, {0.45, 0.9}),
+          Lens(kOmni, 420, {0.9, -0.2, 0.05, 0.001, -0.0005}),
+          Lens(kOmni, 700, {1.9, -0.03, 0.01, 0.0002, 0.0001})};
+}
+
+// True if a model has no rays at 90 degrees off the axis and beyond.
+bool EndsAtThePlane(DistortionModel model) {
+  using enum DistortionModel;
+  return model == kNone || model == kRadTan || model == kRational || model == kFov;
 }
 
 TEST(Camera, IdealProjectionIsThePinhole) {
@@ -88,18 +124,56 @@ TEST(Camera, UnprojectInvertsProjectOverTheWholeImage) {
     for (int v = 0; v < in.height; v += 13) {
       for (int u = 0; u < in.width; u += 13) {
         const Eigen::Vector2d px(u, v);
-        // The corners of the fisheye image look backwards.
-        const double angle = (px - Eigen::Vector2d(in.cx, in.cy)).norm() / in.fx;
-        if (in.model == DistortionModel::kEquidistant && angle > 1.5) continue;
-        const auto ray = camera.Unproject(px);
-        ASSERT_TRUE(ray) << u << " " << v;
-        ASSERT_EQ(ray->z(), 1);
+        const auto ray = camera.Ray(px);
+        ASSERT_TRUE(ray) << FormOf(in.model).name << " " << u << " " << v;
         const auto back = camera.Project(3 * *ray);
-        ASSERT_TRUE(back);
-        EXPECT_LT((*back - px).norm(), 1e-9) << u << " " << v;
+        ASSERT_TRUE(back) << FormOf(in.model).name << " " << u << " " << v;
+        EXPECT_LT((*back - px).norm(), 1e-9) << FormOf(in.model).name << " " << u << " " << v;
+        const auto at_one = camera.Unproject(px);
+        ASSERT_EQ(at_one.has_value(), ray->z() > 1e-9 * ray->norm());
+        if (!at_one) continue;
+        EXPECT_EQ(at_one->z(), 1);
+        EXPECT_LT(at_one->cross(*ray).norm(), 1e-12 * at_one->norm() * ray->norm());
       }
     }
   }
+}
+
+// The formulas of the papers, written down once more.
+TEST(Camera, WideModelsMatchTheirFormulasByHand) {
+  using enum DistortionModel;
+  const Eigen::Vector3d p(0.6, -0.3, 0.2);
+  const double r2 = 0.45, n = std::sqrt(0.45 + 0.04);
+  const auto expect = [&](const CameraIntrinsics& in, double x, double y) {
+    const auto px = Camera(in).Project(p);
+    ASSERT_TRUE(px) << FormOf(in.model).name;
+    EXPECT_NEAR(px->x(), in.fx * x + in.cx, 1e-10) << FormOf(in.model).name;
+    EXPECT_NEAR(px->y(), in.fy * y + in.cy, 1e-10) << FormOf(in.model).name;
+  };
+  const double shifted = -0.2 * n + 0.2;
+  double below = 0.6 * std::sqrt(r2 + shifted * shifted) + 0.4 * shifted;
+  expect(Lens(kDoubleSphere, 160, {-0.2, 0.6}), 0.6 / below, -0.3 / below);
+  below = 0.6 * std::sqrt(1.1 * r2 + 0.04) + 0.4 * 0.2;
+  expect(Lens(kEucm, 160, {0.6, 1.1}), 0.6 / below, -0.3 / below);
+  const double x = 0.6 / (0.2 + 1.2 * n), y = -0.3 / (0.2 + 1.2 * n), s2 = x * x + y * y;
+  const double radial = 1 - 0.1 * s2 + 0.02 * s2 * s2;
+  expect(Lens(kOmni, 160, {1.2, -0.1, 0.02, 0.003, 0.004}),
+         x * radial + 2 * 0.003 * x * y + 0.004 * (s2 + 2 * x * x),
+         y * radial + 0.003 * (s2 + 2 * y * y) + 2 * 0.004 * x * y);
+  const double r = std::sqrt(r2) / 0.2, bent = std::atan(2 * r * std::tan(0.45)) / 0.9;
+  expect(Lens(kFov, 160, {0.9}), 3 * bent / r, -1.5 * bent / r);
+}
+
+TEST(Camera, RationalMatchesTheFormulaByHand) {
+  const CameraIntrinsics in =
+      Lens(DistortionModel::kRational, 500, {0.4, -0.2, 0.002, 0.003, 0.1, 0.3, -0.1, 0.05});
+  const double u = 0.25, x = 0.3, y = 0.4;
+  const double radial = (1 + 0.4 * u - 0.2 * u * u + 0.1 * u * u * u) /
+                        (1 + 0.3 * u - 0.1 * u * u + 0.05 * u * u * u);
+  const auto px = Camera(in).Project({0.6, 0.8, 2});
+  ASSERT_TRUE(px);
+  EXPECT_NEAR(px->x(), 500 * (x * radial + 2 * 0.002 * 0.12 + 0.003 * 0.43) + in.cx, 1e-10);
+  EXPECT_NEAR(px->y(), 505 * (y * radial + 0.002 * 0.57 + 2 * 0.003 * 0.12) + in.cy, 1e-10);
 }
 
 TEST(Camera, JacobianIsTheDerivativeOfProject) {
@@ -120,11 +194,64 @@ TEST(Camera, JacobianIsTheDerivativeOfProject) {
   }
 }
 
+TEST(Camera, JacobianIsTheDerivativeInEveryDirectionOfTheImage) {
+  for (const CameraIntrinsics& in : AllModels()) {
+    const Camera camera(in);
+    for (int v = 3; v < in.height; v += 67) {
+      for (int u = 2; u < in.width; u += 71) {
+        const Eigen::Vector3d p = 2 * camera.Ray({u, v})->normalized();
+        Camera::ProjectionJacobian J;
+        ASSERT_TRUE(camera.Project(p, &J));
+        const Camera::ProjectionJacobian numeric = NumericJacobian(
+            [&](const Eigen::Vector3d& q) { return camera.Project(q).value(); }, p, 1e-5);
+        EXPECT_LT((J - numeric).norm(), 1e-5 * (in.fx + J.norm())) << FormOf(in.model).name;
+      }
+    }
+  }
+}
+
+TEST(Camera, EndsAtTheAngleThatItTells) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  for (const CameraIntrinsics& in : AllModels()) {
+    const Camera camera(in);
+    const double end = camera.MaxAngle();
+    const auto at = [&](double angle) {
+      return camera.Project({std::sin(angle) * 0.6, std::sin(angle) * 0.8, std::cos(angle)});
+    };
+    EXPECT_TRUE(at(end - 0.5 * kDegree)) << FormOf(in.model).name;
+    const bool beyond = end < std::numbers::pi && at(end + 1e-6);
+    EXPECT_FALSE(beyond) << FormOf(in.model).name;
+    EXPECT_EQ(end <= std::numbers::pi / 2, EndsAtThePlane(in.model)) << FormOf(in.model).name;
+    // Before its end the distance from the centre of the image only grows.
+    double last = 0;
+    for (double angle = kDegree; angle < end - 0.1 * kDegree; angle += kDegree) {
+      const Eigen::Vector2d off = *at(angle) - Eigen::Vector2d(in.cx, in.cy);
+      EXPECT_GT(off.norm(), last) << FormOf(in.model).name << " " << angle / kDegree;
+      last = off.norm();
+    }
+  }
+  // (x, y) / (z + n) shows all but the direction backwards; z + 2 n ends where z = -n / 2.
+  EXPECT_NEAR(Camera(Lens(DistortionModel::kOmni, 200, {1})).MaxAngle(), 180 * kDegree, 1e-7);
+  EXPECT_NEAR(Camera(Lens(DistortionModel::kOmni, 200, {2})).MaxAngle(), 120 * kDegree, 1e-12);
+  EXPECT_NEAR(Camera(Lens(DistortionModel::kEucm, 200, {0.5, 1})).MaxAngle(), 180 * kDegree, 1e-7);
+  EXPECT_NEAR(Camera(Pinhole()).MaxAngle(), 90 * kDegree, 1e-12);
+}
+
 TEST(Camera, SeesNothingBehindIt) {
   for (const CameraIntrinsics& in : AllModels()) {
-    EXPECT_FALSE(Camera(in).Project({0.1, 0.1, 0}));
-    EXPECT_FALSE(Camera(in).Project({0.1, 0.1, -1}));
+    EXPECT_FALSE(Camera(in).Project({0, 0, -1})) << FormOf(in.model).name;
+    EXPECT_FALSE(Camera(in).Project({0, 0, 0}));
+    const bool beside = Camera(in).Project({0.1, 0.1, 0}).has_value();
+    EXPECT_EQ(beside, !EndsAtThePlane(in.model)) << FormOf(in.model).name;
   }
+}
+
+TEST(Camera, TellsTheResolutionOfTheMiddle) {
+  EXPECT_NEAR(Camera(Pinhole()).CentreFocal(), 490, 1e-9);
+  // n = z on the axis: 1 + xi divides.
+  const Camera sphere(Lens(DistortionModel::kDoubleSphere, 200, {0.25, 0.6}));
+  EXPECT_NEAR(sphere.CentreFocal(), 201 / 1.25, 1e-9);
+  EXPECT_NEAR(Camera(Lens(DistortionModel::kOmni, 500, {1.5})).CentreFocal(), 201, 1e-9);
 }
 
 TEST(Camera, StopsWhereTheDistortionTurnsBack) {
@@ -146,12 +273,14 @@ TEST(Camera, StrongCoefficientsInvertOrRefuse) {
   int answered = 0;
   for (int i = 0; i < 3000; ++i) {
     CameraIntrinsics in = Pinhole();
-    in.model = i % 2 == 0 ? DistortionModel::kRadTan : DistortionModel::kEquidistant;
+    in.model = i % 3 == 0   ? DistortionModel::kRadTan
+               : i % 3 == 1 ? DistortionModel::kEquidistant
+                            : DistortionModel::kRational;
     for (double& k : in.distortion) k = rng.Normal(0.3);
-    if (i % 2 == 0) in.distortion[2] = in.distortion[3] = rng.Normal(0.005);
+    if (i % 3 != 1) in.distortion[2] = in.distortion[3] = rng.Normal(0.005);
     const Camera camera(in);
     const Eigen::Vector2d px(rng.Uniform(0, 639), rng.Uniform(0, 479));
-    const auto ray = camera.Unproject(px);
+    const auto ray = camera.Ray(px);
     if (!ray) continue;
     ++answered;
     EXPECT_LT((camera.Project(*ray).value() - px).norm(), 1e-7);
@@ -195,6 +324,14 @@ TEST(Camera, RefusesImpossibleNumbersByName) {
   in = Pinhole();
   in.distortion[1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(message(in), "camera: expected finite distortion, found nan");
+  using enum DistortionModel;
+  EXPECT_EQ(message(Lens(kDoubleSphere, 200, {0.1, 1.2})),
+            "camera: expected alpha from 0 to 1, found 1.2");
+  EXPECT_EQ(message(Lens(kDoubleSphere, 200, {-1, 0.5})),
+            "camera: expected xi above -1, at most 1, found -1");
+  EXPECT_EQ(message(Lens(kEucm, 200, {0.5, 0})), "camera: expected beta above 0, found 0");
+  EXPECT_EQ(message(Lens(kOmni, 200, {-0.5})), "camera: expected xi from 0 to 1000, found -0.5");
+  EXPECT_EQ(message(Lens(kFov, 200, {0})), "camera: expected w between 0 and pi, found 0");
   EXPECT_EQ(message(Pinhole()), "no error");
 }
 

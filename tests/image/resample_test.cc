@@ -6,6 +6,7 @@
 #include "plumbline/base/random.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -19,6 +20,8 @@ namespace {
 
 constexpr int kWidth = 640, kHeight = 400;
 
+using Coefficients = std::array<double, kMostCoefficients>;
+
 Camera Distorted(DistortionModel model) {
   return Camera({.fx = 500,
                  .fy = 510,
@@ -27,7 +30,9 @@ Camera Distorted(DistortionModel model) {
                  .width = kWidth,
                  .height = kHeight,
                  .model = model,
-                 .distortion = {-0.2, 0.05, 0.003, -0.002, 0.001}});
+                 .distortion = model == DistortionModel::kOmni
+                                   ? Coefficients{0.9, -0.2, 0.05, 0.003, -0.002}
+                                   : Coefficients{-0.2, 0.05, 0.003, -0.002, 0.001}});
 }
 
 // Where EXIF says that a pixel of the stored image is shown.
@@ -55,8 +60,12 @@ Eigen::Vector2d Shown(int exif, const Eigen::Vector2d& stored) {
 }
 
 TEST(Orientation, TurnsPixelsAndCamerasAlike) {
-  for (const DistortionModel model :
-       {DistortionModel::kNone, DistortionModel::kRadTan, DistortionModel::kEquidistant}) {
+  for (const DistortionModel model : {DistortionModel::kNone,
+                                      DistortionModel::kRadTan,
+                                      DistortionModel::kEquidistant,
+                                      DistortionModel::kRational,
+                                      DistortionModel::kDoubleSphere,
+                                      DistortionModel::kOmni}) {
     const Camera stored = Distorted(model);
     for (int exif = 1; exif <= 8; ++exif) {
       const Orientation orientation = OrientationOfExif(exif);

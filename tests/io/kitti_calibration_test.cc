@@ -198,7 +198,7 @@ TEST(KittiRaw, ReadsDrivesAsTaken) {
   EXPECT_FALSE(c.rectified);
   const CameraIntrinsics& left = c.left.intrinsics();
   EXPECT_EQ(left.model, DistortionModel::kRadTan);
-  EXPECT_THAT(left.distortion, ElementsAre(-0.3, 0.2, 0.001, 0.002, -0.05));
+  EXPECT_THAT(left.distortion, ElementsAre(-0.3, 0.2, 0.001, 0.002, -0.05, 0, 0, 0));
   EXPECT_THAT((std::vector{left.fx, left.fy, left.cx, left.cy}), ElementsAre(10, 11, 7, 5));
   EXPECT_EQ(c.right->intrinsics().fx, 10.5);
   EXPECT_EQ(c.right_from_left.translation, Eigen::Vector3d(-0.5, 0.01, 0.02));

@@ -195,7 +195,7 @@ RawCamera ReadRawCamera(const fs::path& file, int number) {
   in.width = size.width;
   in.height = size.height;
   in.model = DistortionModel::kRadTan;
-  for (std::size_t i = 0; i < in.distortion.size(); ++i) in.distortion[i] = d.numbers[i];
+  std::copy(d.numbers.begin(), d.numbers.end(), in.distortion.begin());
   return {CheckedCamera(in, file, k.line),
           {ReadRotation(file, "R" + suffix), {t.numbers[0], t.numbers[1], t.numbers[2]}},
           t.line};
