@@ -23,27 +23,53 @@ namespace plumbline {
 //                               distortion_parameters k1 k2 p1 p2
 //   model_type: KANNALA_BRANDT  projection_parameters mu mv u0 v0, k2 k3 k4 k5
 //                               (equidistant k1 to k4)
+//   model_type: MEI             projection_parameters gamma1 gamma2 u0 v0,
+//                               mirror_parameters xi, distortion_parameters k1 k2 p1 p2 (omni)
 //
-// rate_hz and depth_factor may be added. Throws InputError naming the key, also for MEI and
-// SCARAMUZZA, which have another projection.
+// rate_hz and depth_factor may be added. Throws InputError naming the key, also for SCARAMUZZA,
+// whose polynomial is no model here.
 Calibration ReadCamodocal(const YamlSection& root);
 
 // Reads a camchain.yaml of the calibration tool Kalibr: cam0 becomes the left camera, cam1, if any,
 // the right camera with right_from_left = T_cn_cnm1, or without it (OpenVINS) from T_cam_imu or
 // T_imu_cam of both. Further cameras, other extrinsics of an inertial sensor, time shifts and
-// topics are ignored. Models: pinhole with radtan, equidistant or no distortion. rate_hz and
-// depth_factor, which Kalibr does not write, may be added at the top or to cam0. Throws InputError
-// naming the key for others.
+// topics are ignored. Models: pinhole with radtan, equidistant, fov or no distortion; omni with
+// radtan or none (intrinsics xi, fx, ...); ds (xi, alpha, fx, ...) and eucm (alpha, beta, fx, ...)
+// with none. rate_hz and depth_factor, which Kalibr does not write, may be added at the top or to
+// cam0. Throws InputError naming the key for others.
 Calibration ReadKalibr(const YamlSection& root);
 
-// Reads the calibration of one camera as written by OpenCV's calibration programs (FileStorage) and
-// by ROS's camera_calibration (ost.yaml, the files of camera_info):
+// Reads a calibration of Basalt, JSON with the group value0: intrinsics[i] with camera_type
+// pinhole, pinhole-radtan8 (rational), kb4 (equidistant), ds, eucm, ucm (eucm with beta = 1) or
+// fov, and resolution[i]; of a pair right_from_left = T_imu_cam[1]^-1 T_imu_cam[0]. Further cameras
+// and all of the inertial sensor are ignored. rate_hz and depth_factor may be added beside value0.
+// Throws InputError naming the key.
+Calibration ReadBasalt(const YamlSection& root);
+
+// Reads the camera from a settings file of stella_vslam or OpenVSLAM, as groups (`Camera: {fx:
+// ...}`) or with whole keys (`Camera.fx`). Camera.model: perspective (k1 k2 p1 p2 k3) or fisheye
+// (equidistant k1 to k4). Camera.setup: monocular; RGBD with depthmap_factor; stereo: rectified, of
+// baseline focal_x_baseline / fx, or raw by StereoRectifier, K, D and R of both cameras (its model
+// is perspective unless given). Throws InputError naming the key, also for equirectangular and
+// radial_division.
+Calibration ReadStellaVslam(const YamlSection& root);
+
+// Reads the camera of a cameras.txt of COLMAP with one camera: CAMERA_ID, MODEL, WIDTH, HEIGHT,
+// parameters. All models but those of a thin prism. A comment `# rate_hz: 20` gives the rate.
+// Throws InputError "source:line: expected ..., found ...".
+Calibration ReadColmapCameras(const std::string& text, const std::string& source);
+// Returns true if the first row that is no comment is one of a cameras.txt.
+bool IsColmapCameras(const std::string& text);
+
+// Reads the calibration of one camera as written by OpenCV's calibration programs (FileStorage,
+// YAML or JSON) and by ROS's camera_calibration (ost.yaml, the files of camera_info):
 //
 //   image_width, image_height
 //   camera_matrix            3x3 without skew
-//   distortion_coefficients  k1 k2 p1 p2 [k3 [zeros]]; of a fisheye k1 k2 k3 k4
-//   distortion_model         plumb_bob, rational_polynomial (with zeros behind k3), equidistant or
-//                            fisheye; OpenCV's programs have fisheye_model, 0 or 1, in its place
+//   distortion_coefficients  k1 k2 p1 p2 [k3 [k4 k5 k6 [zeros]]]; of a fisheye k1 k2 k3 k4
+//   xi                       of cv::omnidir, with k1 k2 p1 p2
+//   distortion_model         plumb_bob, rational_polynomial, equidistant or fisheye; OpenCV's
+//                            programs have fisheye_model, 0 or 1, in its place
 //
 // rate_hz and depth_factor, which neither writes, may be added. All other keys are ignored for one
 // camera: its name, its rectification for a pair, and the process of its calibration. Throws

@@ -103,7 +103,8 @@ TEST(ParseCamera, BadFilesAreNamedByLineAndKey) {
       {"size: [640, 480]\nintrinsics: [-5,1,1,1]\n",
        "c.yaml:2: intrinsics: expected fx from 6.4 to 640000 px, found -5"},
       {mono + "distortion: fisheye\n",
-       "c.yaml:4: distortion: expected none, radtan or equidistant, found 'fisheye'"},
+       "c.yaml:4: distortion: expected one of none, radtan, equidistant, rational, fov, "
+       "double_sphere, eucm, omni, found 'fisheye'"},
       {mono + "distortion: radtan\n", "distortion_coefficients: expected 4 or 5 numbers"},
       {mono + "distortion: equidistant\ndistortion_coefficients: [1, 2, 3, 4, 5]\n",
        "c.yaml:5: distortion_coefficients: expected 4 numbers, found 5"},
@@ -427,6 +428,25 @@ TEST(FindCamera, BuiltInNumbersAreThoseOfTheData) {
     EXPECT_EQ(found.rate_hz, expected.rate_hz) << c.name;
     EXPECT_LT(LogSe3(*found.body_from_left * Inverse(*expected.body_from_left)).norm(), 1e-12);
   }
+}
+
+TEST(FormatCamera, WritesEveryModel) {
+  for (const DistortionForm& form : kDistortionForms) {
+    CameraIntrinsics in{.fx = 300, .fy = 301, .cx = 320, .cy = 240, .width = 640, .height = 480};
+    in.model = form.model;
+    // Numbers that are valid for every model.
+    for (std::size_t i = 0; i < form.most; ++i) in.distortion[i] = 0.1 + 0.01 * static_cast<double>(i);
+    Calibration calibration;
+    calibration.left = Camera(in);
+    const std::string text = FormatCamera(calibration);
+    EXPECT_EQ(ParseCamera(text, "c.yaml").left.intrinsics(), in) << text;
+  }
+  EXPECT_EQ(MessageOf([] {
+              ParseCamera(
+                  std::string(kMono) + "distortion: eucm\ndistortion_coefficients: [0.5, -1]\n",
+                  "c.yaml");
+            }),
+            "c.yaml:5: distortion_coefficients: expected beta above 0, found -1");
 }
 
 TEST(FindCamera, ReadsAFileAndTellsItsFormat) {

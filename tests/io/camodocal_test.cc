@@ -48,15 +48,36 @@ TEST(ReadCamodocal, ReadsPinholeAndKannalaBrandt) {
   EXPECT_EQ(c.rate_hz, 30);
 }
 
+TEST(ReadCamodocal, ReadsMei) {
+  const std::string mei =
+      "%YAML:1.0\n---\nmodel_type: MEI\ncamera_name: camera\nimage_width: 720\nimage_height: 540\n"
+      "mirror_parameters:\n   xi: 1.9\ndistortion_parameters:\n   k1: -0.03\n   k2: 0.1\n"
+      "   p1: 0.0001\n   p2: -0.001\nprojection_parameters:\n   gamma1: 669\n   gamma2: 668\n"
+      "   u0: 377\n   v0: 279\n";
+  EXPECT_EQ(ParseCamera(mei, "cam0.yaml").left,
+            Camera({.fx = 669,
+                    .fy = 668,
+                    .cx = 377,
+                    .cy = 279,
+                    .width = 720,
+                    .height = 540,
+                    .model = DistortionModel::kOmni,
+                    .distortion = {1.9, -0.03, 0.1, 0.0001, -0.001}}));
+  std::string wrong = mei;
+  wrong.replace(wrong.find("1.9"), 3, "-1.9");
+  EXPECT_THAT(MessageOf([&] { ParseCamera(wrong, "cam0.yaml"); }),
+              HasSubstr("cam0.yaml:8: mirror_parameters: expected xi from 0 to 1000, found -1.9"));
+}
+
 TEST(ReadCamodocal, SaysWhatIsWrong) {
   const auto message = [](const std::string& from, const std::string& to) {
     std::string text = kEurocCamera;
     text.replace(text.find(from), from.size(), to);
     return MessageOf([&] { ParseCamera(text, "cam0.yaml"); });
   };
-  EXPECT_THAT(
-      message("PINHOLE", "MEI"),
-      HasSubstr("cam0.yaml:3: model_type: expected PINHOLE or KANNALA_BRANDT, found 'MEI'"));
+  EXPECT_THAT(message("PINHOLE", "SCARAMUZZA"),
+              HasSubstr("cam0.yaml:3: model_type: expected PINHOLE, KANNALA_BRANDT or MEI, found "
+                        "'SCARAMUZZA'"));
   EXPECT_THAT(message("   fx: 458.6\n", ""), HasSubstr("projection_parameters.fx: expected"));
   EXPECT_THAT(message("458.6", "-458.6"), HasSubstr("projection_parameters: expected fx"));
   EXPECT_THAT(message("image_width: 752\n", ""), HasSubstr("image_width: expected the size"));

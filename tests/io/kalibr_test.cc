@@ -112,6 +112,48 @@ TEST(ReadKalibr, RateAndDepthFactorMayBeAdded) {
   EXPECT_FALSE(ParseCamera(CameraText("cam0", ""), "camchain.yaml").rate_hz);
 }
 
+std::string WideText(const std::string& model,
+                     const std::string& intrinsics,
+                     const std::string& distortion) {
+  return "cam0:\n  cam_overlaps: []\n  camera_model: " + model +
+         "\n  distortion_coeffs: " + distortion + "\n  intrinsics: [" + intrinsics +
+         ", 190, 191, 254, 256]\n  resolution: [512, 500]\n  rostopic: /cam0/image_raw\n";
+}
+
+// The numbers of the projection stand before the focal lengths.
+TEST(ReadKalibr, ReadsModelsOfSpheres) {
+  using enum DistortionModel;
+  const std::string none = "[]\n  distortion_model: none";
+  const auto left = [](const std::string& text) {
+    return ParseCamera(text, "camchain.yaml").left.intrinsics();
+  };
+  CameraIntrinsics expected{
+      .fx = 190, .fy = 191, .cx = 254, .cy = 256, .width = 512, .height = 500};
+  expected.model = kDoubleSphere;
+  expected.distortion = {-0.2, 0.6};
+  EXPECT_EQ(left(WideText("ds", "-0.2, 0.6", none)), expected);
+  expected.model = kEucm;
+  expected.distortion = {0.6, 1.1};
+  EXPECT_EQ(left(WideText("eucm", "0.6, 1.1", none)), expected);
+  expected.model = kOmni;
+  expected.distortion = {0.8};
+  EXPECT_EQ(left(WideText("omni", "0.8", none)), expected);
+  expected.distortion = {0.8, -0.3, 0.1, 0.0005, 0.0006};
+  EXPECT_EQ(
+      left(WideText("omni", "0.8", "[-0.3, 0.1, 0.0005, 0.0006]\n  distortion_model: radtan")),
+      expected);
+  std::string fov = CameraText("cam0", "");
+  fov.replace(fov.find("equidistant"), 11, "fov");
+  fov.replace(fov.find("[0.1, 0.2, 0.3, 0.4]"), 20, "[0.9]");
+  expected.model = kFov;
+  expected.distortion = {0.9};
+  EXPECT_EQ(left(fov), expected);
+  EXPECT_THAT(MessageOf([&] { ParseCamera(WideText("ds", "0.1", none), "camchain.yaml"); }),
+              HasSubstr("camchain.yaml:6: cam0.intrinsics: expected 6 numbers, found 5"));
+  EXPECT_THAT(MessageOf([&] { ParseCamera(WideText("eucm", "0.1, -1", none), "camchain.yaml"); }),
+              HasSubstr("camchain.yaml:6: cam0.intrinsics: expected beta above 0, found -1"));
+}
+
 TEST(ReadKalibr, BadFilesAreNamedByLineAndKey) {
   const auto message = [](const std::string& from, const std::string& to) {
     std::string text = kPair;
@@ -119,14 +161,17 @@ TEST(ReadKalibr, BadFilesAreNamedByLineAndKey) {
     return MessageOf([&] { ParseCamera(text, "camchain.yaml"); });
   };
   EXPECT_EQ(message("cam0", "cam0"), "no error");
-  for (const char* model : {"omni", "ds", "eucm"}) {
-    EXPECT_EQ(
-        message("pinhole", model),
-        std::string("camchain.yaml:2: cam0.camera_model: expected pinhole, found '") + model + "'");
-  }
-  EXPECT_EQ(message("equidistant", "fov"),
-            "camchain.yaml:4: cam0.distortion_model: expected radtan, equidistant or none, found "
-            "'fov'");
+  EXPECT_EQ(message("pinhole", "scaramuzza"),
+            "camchain.yaml:2: cam0.camera_model: expected pinhole, omni, ds or eucm, found "
+            "'scaramuzza'");
+  EXPECT_EQ(message("equidistant", "thin_prism"),
+            "camchain.yaml:4: cam0.distortion_model: expected radtan, equidistant, fov or none, "
+            "found 'thin_prism'");
+  EXPECT_EQ(message("pinhole", "ds"),
+            "camchain.yaml:4: cam0.distortion_model: expected none with ds, found 'equidistant'");
+  EXPECT_EQ(message("pinhole", "omni"),
+            "camchain.yaml:4: cam0.distortion_model: expected radtan or none with omni, found "
+            "'equidistant'");
   EXPECT_THAT(message("0.3, 0.4]", "0.3]"),
               HasSubstr("camchain.yaml:5: cam0.distortion_coeffs: expected 4 numbers, found 3"));
   EXPECT_THAT(message("[512, 500]", "[512]"), HasSubstr("cam0.resolution: expected 2 numbers"));

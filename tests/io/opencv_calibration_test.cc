@@ -108,12 +108,47 @@ TEST(ReadOpenCvCalibration, CoefficientsBehindTheFifthAreZero) {
     const std::string text = CoefficientsOf(std::string("0.1, -0.02, 0.001, 0.002, 0.3") + zeros);
     EXPECT_EQ(Parse(text + "distortion_model: rational_polynomial\n").intrinsics(), expected);
   }
-  EXPECT_EQ(MessageFor(CoefficientsOf("0.1, -0.02, 0.001, 0.002, 0.3, 0, 0.5, 0")),
-            "ost.yaml:4: distortion_coefficients.data: expected k1, k2, p1, p2, k3 and then zeros, "
-            "found 0.5 as number 7; calibrate without the rational, thin prism and tilted models");
+  EXPECT_EQ(MessageFor(CoefficientsOf("0.1, -0.02, 0.001, 0.002, 0.3, 0, 0.5, 0, 0, 0.01, 0, 0")),
+            "ost.yaml:4: distortion_coefficients.data: expected k1, k2, p1, p2, k3, k4, k5, k6 and "
+            "then zeros, found 0.01 as number 10; calibrate without the thin prism and tilted "
+            "models");
   EXPECT_THAT(MessageFor(CoefficientsOf("0.1, -0.02")),
               HasSubstr("expected 4 or 5 or 8 or 12 or 14 numbers, found 2"));
   EXPECT_TRUE(Parse(CoefficientsOf("0, 0, 0, 0, 0")).IsIdeal());
+}
+
+// As depth cameras have it.
+TEST(ReadOpenCvCalibration, EightCoefficientsAreRational) {
+  const std::string eight = "0.4, -2.5, 0.001, 0.002, 1.4, 0.3, -2.3, 1.35";
+  for (const std::string& text :
+       {CoefficientsOf(eight),
+        CoefficientsOf(eight + ", 0, 0, 0, 0, 0, 0"),
+        CoefficientsOf(eight) + "distortion_model: rational_polynomial\n"}) {
+    const CameraIntrinsics k = Parse(text).intrinsics();
+    EXPECT_EQ(k.model, DistortionModel::kRational);
+    EXPECT_THAT(k.distortion, testing::ElementsAre(0.4, -2.5, 0.001, 0.002, 1.4, 0.3, -2.3, 1.35));
+  }
+}
+
+// cv::FileStorage writes JSON, too.
+TEST(ReadOpenCvCalibration, ReadsJson) {
+  const std::string json =
+      "{\n    \"image_width\": 640,\n    \"image_height\": 480,\n    \"camera_matrix\": {\n"
+      "        \"type_id\": \"opencv-matrix\",\n        \"rows\": 3,\n        \"cols\": 3,\n"
+      "        \"dt\": \"d\",\n        \"data\": [ 5.0e+02, 0.0, 320, 0.0,\n            510, 240, "
+      "0.0, 0.0, 1.0 ]\n    },\n    \"distortion_coefficients\": {\n        \"type_id\": "
+      "\"opencv-matrix\",\n        \"rows\": 5,\n        \"cols\": 1,\n        \"dt\": \"d\",\n"
+      "        \"data\": [ 0.1, -0.02, 0.001, 0.002, 0.3 ]\n    }\n}\n";
+  EXPECT_EQ(Parse(json), Parse(CoefficientsOf("0.1, -0.02, 0.001, 0.002, 0.3")));
+  EXPECT_THAT(MessageFor(With(json, "5.0e+02", "-5")),
+              HasSubstr("ost.yaml:4: camera_matrix: expected fx"));
+}
+
+TEST(ReadOpenCvCalibration, KnowsAnOmnidirectionalCameraByXi) {
+  const CameraIntrinsics k =
+      Parse(CoefficientsOf("0.1, 0.02, -0.003, 0.0004") + "xi: 1.2\n").intrinsics();
+  EXPECT_EQ(k.model, DistortionModel::kOmni);
+  EXPECT_THAT(k.distortion, testing::ElementsAre(1.2, 0.1, 0.02, -0.003, 0.0004, 0, 0, 0));
 }
 
 TEST(ReadOpenCvCalibration, BadFilesAreNamedByLineAndKey) {

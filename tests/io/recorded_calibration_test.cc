@@ -22,6 +22,8 @@ struct Case {
 
 const std::vector<double> kFive = {0.1, -0.2, 0.001, 0.002, 0.03};
 
+const std::vector<double> kEight = {0.4, -2.5, 0.001, 0.002, 1.4, 0.3, -2.3, 1.35};
+
 std::vector<double> Padded(std::vector<double> numbers, std::size_t size) {
   numbers.resize(size);
   return numbers;
@@ -36,6 +38,8 @@ TEST(SetNamedDistortion, KnowsTheNamesOfDrivers) {
                                    {"plumb_bob", Padded(kFive, 12), kRadTan},
                                    {"rational_polynomial", Padded(kFive, 8), kRadTan},
                                    {"rational_polynomial", Padded(kFive, 14), kRadTan},
+                                   {"rational_polynomial", kEight, kRational},
+                                   {"rational_polynomial", Padded(kEight, 14), kRational},
                                    {"Brown Conrady", kFive, kRadTan},
                                    {"radtan", four, kRadTan},
                                    {"rational_polynomial", Padded({}, 8)},
@@ -53,7 +57,7 @@ TEST(SetNamedDistortion, KnowsTheNamesOfDrivers) {
     CameraIntrinsics intrinsics;
     EXPECT_EQ(SetNamedDistortion(one.model, one.numbers, intrinsics), std::nullopt) << one.model;
     EXPECT_EQ(intrinsics.model, one.expected) << one.model << " of " << one.numbers.size();
-    for (std::size_t i = 0; i < 5; ++i) {
+    for (std::size_t i = 0; i < kMostCoefficients; ++i) {
       const bool given = one.expected != DistortionModel::kNone && i < one.numbers.size();
       EXPECT_EQ(intrinsics.distortion[i], given ? one.numbers[i] : 0) << one.model;
     }
@@ -65,14 +69,14 @@ TEST(SetNamedDistortion, SaysWhyNot) {
     CameraIntrinsics intrinsics;
     return SetNamedDistortion(model, numbers, intrinsics).value_or("no fault");
   };
-  std::vector<double> rational = Padded(kFive, 8);
-  rational[6] = 0.5;
-  EXPECT_THAT(fault("rational_polynomial", rational),
-              HasSubstr("expected k1, k2, p1, p2, k3 and then zeros, found 0.5 as number 7; "
-                        "calibrate without the rational"));
+  std::vector<double> prism = Padded(kFive, 12);
+  prism[9] = 0.5;
+  EXPECT_THAT(fault("rational_polynomial", prism),
+              HasSubstr("k5, k6 and then zeros, found 0.5 as number 10; calibrate without the thin "
+                        "prism"));
   EXPECT_THAT(fault("equidistant", kFive), HasSubstr("found 0.03 as number 5"));
   EXPECT_THAT(fault("equidistant", {}), HasSubstr("expected 'equidistant' of 4 numbers, found 0"));
-  EXPECT_THAT(fault("plumb_bob", {0.1, 0.2}), HasSubstr("of 4 or 5 numbers, found 2"));
+  EXPECT_THAT(fault("plumb_bob", {0.1, 0.2}), HasSubstr("of at least 4 numbers, found 2"));
   EXPECT_THAT(fault("", kFive), HasSubstr("expected the name of a distortion model"));
   EXPECT_THAT(fault("Inverse Brown Conrady", kFive),
               HasSubstr("found 'Inverse Brown Conrady', whose numbers undo a distortion"));

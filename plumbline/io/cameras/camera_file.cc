@@ -22,22 +22,20 @@
 namespace plumbline {
 namespace {
 
-constexpr std::array<std::pair<DistortionModel, std::string_view>, 3> kDistortionNames = {
-    {{DistortionModel::kNone, "none"},
-     {DistortionModel::kRadTan, "radtan"},
-     {DistortionModel::kEquidistant, "equidistant"}}};
-
 Camera ReadOurCamera(const YamlSection& section) {
   if (section.Has("model")) CheckPinhole(section, "model");
   const std::string name = section.Has("distortion") ? section.Text("distortion") : "none";
-  for (const auto& [model, model_name] : kDistortionNames) {
-    if (name != model_name) continue;
-    if (model == DistortionModel::kNone && section.Has("distortion_coefficients")) {
+  std::vector<std::string_view> names;
+  for (const DistortionForm& form : kDistortionForms) {
+    names.push_back(form.name);
+    if (name != form.name) continue;
+    if (form.model == DistortionModel::kNone && section.Has("distortion_coefficients")) {
       section.Fail("distortion_coefficients", "expected none without a distortion model");
     }
-    return ReadListedCamera(section, {"size", "intrinsics", "distortion_coefficients"}, model);
+    return ReadListedCamera(section, {"size", "intrinsics", "distortion_coefficients"}, form.model);
   }
-  section.Fail("distortion", "expected none, radtan or equidistant, found " + InQuotes(name));
+  section.Fail("distortion",
+               fmt::format("expected one of {}, found {}", fmt::join(names, ", "), InQuotes(name)));
 }
 
 std::vector<std::string> CameraKeyNames() {
@@ -77,13 +75,13 @@ void AppendCamera(const Camera& camera, const std::string& indent, std::string& 
   out += indent + "model: pinhole\n";
   out += indent + fmt::format("size: [{}, {}]\n", k.width, k.height);
   out += indent + fmt::format("intrinsics: [{}, {}, {}, {}]\n", k.fx, k.fy, k.cx, k.cy);
-  for (const auto& [model, name] : kDistortionNames) {
-    if (model == k.model) out += indent + fmt::format("distortion: {}\n", name);
-  }
+  const DistortionForm& form = FormOf(k.model);
+  out += indent + fmt::format("distortion: {}\n", form.name);
   if (k.model == DistortionModel::kNone) return;
-  const std::size_t count = k.model == DistortionModel::kRadTan ? 5 : 4;
   out += indent + fmt::format("distortion_coefficients: [{}]\n",
-                              fmt::join(k.distortion.begin(), k.distortion.begin() + count, ", "));
+                              fmt::join(k.distortion.begin(),
+                                        k.distortion.begin() + static_cast<int>(form.most),
+                                        ", "));
 }
 
 std::string FormatMotion(const std::string& key, const Rigid3& motion) {
@@ -142,6 +140,20 @@ struct CameraFormat {
 // Returns the first format that fits. Our own format has no keys here and comes last.
 const CameraFormat& FormatOf(const YamlSection& root) {
   static const std::vector<CameraFormat> formats = {
+      {"Basalt calibration",
+       {"value0"},
+       ReadBasalt,
+       {.pair = {"value0/T_imu_cam"},
+        .rate = {"rate_hz"},
+        .depth_factor = {"depth_factor"},
+        .lever = {}}},
+      {"stella_vslam settings",
+       {"Camera", "Camera.model"},
+       ReadStellaVslam,
+       {.pair = {"Camera.focal_x_baseline", "Camera/focal_x_baseline"},
+        .rate = {"Camera.fps", "Camera/fps"},
+        .depth_factor = {"depthmap_factor", "Preprocessing/depthmap_factor"},
+        .lever = {}}},
       {"Kalibr camchain",
        {"cam0", "cam1"},
        ReadKalibr,
@@ -192,12 +204,18 @@ Calibration ReadAs(const CameraFormat& format, const YamlSection& root, bool use
 }  // namespace
 
 Calibration ParseCamera(const std::string& yaml, const std::string& source, bool use_pair) {
+  if (IsColmapCameras(yaml)) return ReadColmapCameras(yaml, source);
   const YamlSection root = YamlSection::Parse(yaml, source);
   return ReadAs(FormatOf(root), root, use_pair);
 }
 
 CameraFile ReadCameraFile(const std::filesystem::path& path, bool use_pair) {
-  const YamlSection root = YamlSection::Parse(ReadInputFile(path, kLargestSettings), path.string());
+  const std::string text = ReadInputFile(path, kLargestSettings);
+  if (IsColmapCameras(text)) {
+    return {ReadColmapCameras(text, path.string()),
+            fmt::format("{} (COLMAP cameras.txt)", path.string())};
+  }
+  const YamlSection root = YamlSection::Parse(text, path.string());
   const CameraFormat& format = FormatOf(root);
   return {ReadAs(format, root, use_pair), fmt::format("{} ({})", path.string(), format.name)};
 }

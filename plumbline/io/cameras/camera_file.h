@@ -16,7 +16,7 @@ namespace plumbline {
 //   model: pinhole
 //   size: [752, 480]                            # width, height
 //   intrinsics: [458.65, 457.3, 367.2, 248.4]   # fx, fy, cx, cy
-//   distortion: radtan                          # none (default) | radtan | equidistant
+//   distortion: radtan                          # none (default) or another of kDistortionForms
 //   distortion_coefficients: [-0.28, 0.07, 0.0002, 0.00002]
 //   rectified: false                            # default
 //   rate_hz: 20                                 # optional
@@ -28,8 +28,8 @@ namespace plumbline {
 //   body_from_left: [16 numbers]                # optional, body = frame of the ground truth
 //
 // or a file of another program, recognized by its keys: EuRoC's sensor.yaml (one camera), Kalibr's
-// camchain.yaml, settings of ORB-SLAM2 and 3, CamOdoCal's files, and calibrations by OpenCV's
-// programs or ROS (all in camera_formats.h).
+// camchain.yaml, settings of ORB-SLAM2 and 3 and of stella_vslam, Basalt's and CamOdoCal's files,
+// COLMAP's cameras.txt, and calibrations by OpenCV's programs or ROS (all in camera_formats.h).
 //
 // Throws InputError "source:line: key: expected ..., found ...".
 //

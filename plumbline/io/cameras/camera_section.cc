@@ -11,6 +11,8 @@
 #include <optional>
 #include <vector>
 
+#include <fmt/core.h>
+
 namespace plumbline {
 namespace {
 
@@ -40,36 +42,41 @@ void FailOn(const std::optional<std::string>& fault,
   FailAtPath(root, found == keys.end() ? keys.front() : *found, *fault);
 }
 
-// Returns a width or height that `key` gives; throws InputError unless it is a whole number of
-// pixels.
+}  // namespace
+
 int CheckedLength(const YamlSection& section, const std::string& key, double length) {
   if (const auto fault = SizeFault(length, 1)) section.Fail(key, *fault);
   return static_cast<int>(length);
 }
 
-}  // namespace
-
 Camera ReadListedCamera(const YamlSection& section,
                         const CameraListKeys& keys,
-                        DistortionModel model) {
+                        DistortionModel model,
+                        std::size_t leading) {
   CameraIntrinsics intrinsics;
   const std::vector<double> size = section.Numbers(keys.size, {2});
-  const std::vector<double> k = section.Numbers(keys.intrinsics, {4});
+  const std::vector<double> k = section.Numbers(keys.intrinsics, {leading + 4});
   intrinsics.width = CheckedLength(section, keys.size, size[0]);
   intrinsics.height = CheckedLength(section, keys.size, size[1]);
-  intrinsics.fx = k[0];
-  intrinsics.fy = k[1];
-  intrinsics.cx = k[2];
-  intrinsics.cy = k[3];
+  intrinsics.fx = k[leading];
+  intrinsics.fy = k[leading + 1];
+  intrinsics.cx = k[leading + 2];
+  intrinsics.cy = k[leading + 3];
   intrinsics.model = model;
-  if (model != DistortionModel::kNone) {
-    const bool radtan = model == DistortionModel::kRadTan;
-    const std::vector<double> d = section.Numbers(
-        keys.coefficients, radtan ? std::vector<std::size_t>{4, 5} : std::vector<std::size_t>{4});
-    std::copy(d.begin(), d.end(), intrinsics.distortion.begin());
+  std::copy_n(k.begin(), leading, intrinsics.distortion.begin());
+  const DistortionForm& form = FormOf(model);
+  const bool more = form.most > leading && !keys.coefficients.empty();
+  if (more) {
+    std::vector<std::size_t> counts = {form.most - leading};
+    if (form.least > leading && form.least < form.most) {
+      counts.insert(counts.begin(), form.least - leading);
+    }
+    const std::vector<double> d = section.Numbers(keys.coefficients, counts);
+    std::copy(d.begin(), d.end(), intrinsics.distortion.begin() + static_cast<int>(leading));
   }
   const std::string& key = keys.intrinsics;
-  return CheckedCamera(section, {keys.size, {key, key, key, key}, keys.coefficients}, intrinsics);
+  const std::string& last = more ? keys.coefficients : key;
+  return CheckedCamera(section, {keys.size, {key, key, key, key}, last}, intrinsics);
 }
 
 Camera ReadModelCamera(const YamlSection& section,
@@ -79,9 +86,10 @@ Camera ReadModelCamera(const YamlSection& section,
   const std::string name = section.Text("distortion_model");
   if (name == radtan_name) return ReadListedCamera(section, keys, DistortionModel::kRadTan);
   if (name == "equidistant") return ReadListedCamera(section, keys, DistortionModel::kEquidistant);
+  if (name == "fov") return ReadListedCamera(section, keys, DistortionModel::kFov);
   if (name == "none") return ReadListedCamera(section, keys, DistortionModel::kNone);
   section.Fail("distortion_model",
-               "expected " + radtan_name + ", equidistant or none, found " + InQuotes(name));
+               "expected " + radtan_name + ", equidistant, fov or none, found " + InQuotes(name));
 }
 
 void CheckPinhole(const YamlSection& section, const std::string& key) {
@@ -128,6 +136,32 @@ void SetRadTan(const std::vector<double>& coefficients, CameraIntrinsics& intrin
     return coefficient != 0;
   });
   intrinsics.model = any ? DistortionModel::kRadTan : DistortionModel::kNone;
+}
+
+std::optional<std::string> SetOpenCvDistortion(std::span<const double> coefficients,
+                                               CameraIntrinsics& intrinsics) {
+  const std::size_t first_rational = FormOf(DistortionModel::kRadTan).most;
+  for (std::size_t i = kMostCoefficients; i < coefficients.size(); ++i) {
+    if (coefficients[i] == 0) continue;
+    return fmt::format(
+        "expected k1, k2, p1, p2, k3, k4, k5, k6 and then zeros, found {:g} as number {}; "
+        "calibrate "
+        "without the thin prism and tilted models",
+        coefficients[i],
+        i + 1);
+  }
+  const std::size_t used = std::min(coefficients.size(), kMostCoefficients);
+  const auto any = [&](std::size_t from) {
+    return std::any_of(coefficients.begin() + static_cast<std::ptrdiff_t>(std::min(from, used)),
+                       coefficients.begin() + static_cast<std::ptrdiff_t>(used),
+                       [](double number) { return number != 0; });
+  };
+  intrinsics.distortion = {};
+  std::copy_n(coefficients.begin(), used, intrinsics.distortion.begin());
+  intrinsics.model = any(first_rational) ? DistortionModel::kRational
+                     : any(0)            ? DistortionModel::kRadTan
+                                         : DistortionModel::kNone;
+  return std::nullopt;
 }
 
 void CheckCalibration(const YamlSection& root,

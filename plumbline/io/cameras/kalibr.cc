@@ -1,15 +1,54 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/printable.h"
 #include "plumbline/io/camera_formats.h"
 #include "plumbline/io/cameras/camera_section.h"
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
+
+#include <fmt/core.h>
 
 namespace plumbline {
 namespace {
 
+// Models whose first numbers stand before the focal lengths.
+struct KalibrModel {
+  const char* name;
+  DistortionModel model;
+  std::size_t leading;
+};
+constexpr std::array<KalibrModel, 3> kSphereModels = {{{"omni", DistortionModel::kOmni, 1},
+                                                       {"ds", DistortionModel::kDoubleSphere, 2},
+                                                       {"eucm", DistortionModel::kEucm, 2}}};
+
+Camera ReadSphereCamera(const YamlSection& section, const KalibrModel& sphere) {
+  const bool bends = sphere.model == DistortionModel::kOmni;
+  const std::string name =
+      section.Has("distortion_model") ? section.Text("distortion_model") : "none";
+  if (name == "none" || (bends && name == "radtan")) {
+    return ReadListedCamera(section,
+                            {"resolution", "intrinsics", name == "none" ? "" : "distortion_coeffs"},
+                            sphere.model,
+                            sphere.leading);
+  }
+  section.Fail("distortion_model",
+               fmt::format("expected {}none with {}, found {}",
+                           bends ? "radtan or " : "",
+                           sphere.name,
+                           InQuotes(name)));
+}
+
 Camera ReadCamera(const YamlSection& section) {
+  const std::string name = section.Text("camera_model");
+  for (const KalibrModel& sphere : kSphereModels) {
+    if (name == sphere.name) return ReadSphereCamera(section, sphere);
+  }
+  if (name != "pinhole") {
+    section.Fail("camera_model", "expected pinhole, omni, ds or eucm, found " + InQuotes(name));
+  }
   return ReadModelCamera(section, {"resolution", "intrinsics", "distortion_coeffs"}, "radtan");
 }
 

@@ -5,16 +5,11 @@
 #include "plumbline/io/cameras/camera_section.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <string>
 #include <vector>
 
-#include <fmt/core.h>
-
 namespace plumbline {
 namespace {
-
-constexpr std::size_t kMostRadTan = 5;  // k1, k2, p1, p2, k3
 
 // ROS names the model. OpenCV's programs mark that of cv::fisheye, or know only the other one.
 bool IsFisheye(const YamlSection& root) {
@@ -35,19 +30,15 @@ void ReadFisheye(const YamlSection& matrix, CameraIntrinsics& intrinsics) {
   intrinsics.model = DistortionModel::kEquidistant;
 }
 
-// The rational, thin prism and tilted models have more coefficients, and none of them is here.
-void ReadRadTan(const YamlSection& matrix, CameraIntrinsics& intrinsics) {
-  std::vector<double> d = matrix.Numbers("data", {4, 5, 8, 12, 14});
-  for (std::size_t i = kMostRadTan; i < d.size(); ++i) {
-    if (d[i] == 0) continue;
-    matrix.Fail("data",
-                fmt::format("expected k1, k2, p1, p2, k3 and then zeros, found {:g} as number {}; "
-                            "calibrate without the rational, thin prism and tilted models",
-                            d[i],
-                            i + 1));
-  }
-  d.resize(std::min(d.size(), kMostRadTan));
-  SetRadTan(d, intrinsics);
+void ReadPinhole(const YamlSection& matrix, CameraIntrinsics& intrinsics) {
+  const std::vector<double> d = matrix.Numbers("data", {4, 5, 8, 12, 14});
+  if (const auto fault = SetOpenCvDistortion(d, intrinsics)) matrix.Fail("data", *fault);
+}
+
+void ReadOmni(const YamlSection& matrix, CameraIntrinsics& intrinsics) {
+  const std::vector<double> d = matrix.Numbers("data", {4});
+  std::copy(d.begin(), d.end(), intrinsics.distortion.begin() + 1);
+  intrinsics.model = DistortionModel::kOmni;
 }
 
 }  // namespace
@@ -58,11 +49,15 @@ Calibration ReadOpenCvCalibration(const YamlSection& root) {
   intrinsics.width = ReadLength(root, "image_width");
   intrinsics.height = ReadLength(root, "image_height");
   ReadCameraMatrix(root, matrix, intrinsics);
-  const auto read_distortion = IsFisheye(root) ? ReadFisheye : ReadRadTan;
+  const bool omni = root.Has("xi");
+  const auto read_distortion = omni ? ReadOmni : IsFisheye(root) ? ReadFisheye : ReadPinhole;
   read_distortion(root.Child(coefficients), intrinsics);
+  if (omni) intrinsics.distortion[0] = root.Number("xi");
   Calibration calibration;
-  calibration.left = CheckedCamera(
-      root, {"image_width", {matrix, matrix, matrix, matrix}, coefficients}, intrinsics);
+  calibration.left =
+      CheckedCamera(root,
+                    {"image_width", {matrix, matrix, matrix, matrix}, omni ? "xi" : coefficients},
+                    intrinsics);
   if (root.Has("rate_hz")) calibration.rate_hz = root.Positive("rate_hz");
   if (root.Has("depth_factor")) calibration.depth_factor = root.Positive("depth_factor");
   return calibration;

@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/geometry/calibration.h"
+#include "plumbline/io/cameras/camera_section.h"
 
 #include <algorithm>
 #include <array>
@@ -120,6 +121,17 @@ std::string WhyNot(std::string_view model, const std::string& name) {
   return fmt::format("expected distortion plumb_bob or equidistant, found {}", InQuotes(model));
 }
 
+std::optional<std::string> SetPinholeDistortion(std::string_view model,
+                                                std::span<const double> numbers,
+                                                CameraIntrinsics& intrinsics) {
+  constexpr std::size_t kLeast = 4;
+  if (numbers.size() < kLeast && !AllZero(numbers)) {
+    return fmt::format(
+        "expected {} of at least 4 numbers, found {}", InQuotes(model), numbers.size());
+  }
+  return SetOpenCvDistortion(numbers, intrinsics);
+}
+
 }  // namespace
 
 bool IsCalibrated(const CalibrationMessage& message) {
@@ -160,28 +172,21 @@ std::optional<std::string> SetNamedDistortion(std::string_view model,
     intrinsics.model = DistortionModel::kNone;
     return AllZero(numbers) ? std::nullopt : std::optional(WhyNot(model, name));
   }
-  const std::size_t most = radtan ? 5 : 4;
-  const bool usual = numbers.size() == most || (radtan && numbers.size() == most - 1);
-  if (radtan && !usual && AllZero(numbers)) {
-    intrinsics.model = DistortionModel::kNone;
-    return std::nullopt;
+  if (radtan) return SetPinholeDistortion(model, numbers, intrinsics);
+  constexpr std::size_t kMost = 4;
+  if (numbers.size() < kMost) {
+    return fmt::format("expected {} of 4 numbers, found {}", InQuotes(model), numbers.size());
   }
-  if (numbers.size() < most && !usual) {
-    return fmt::format("expected {} of {} numbers, found {}",
-                       InQuotes(model),
-                       radtan ? "4 or 5" : "4",
-                       numbers.size());
-  }
-  for (std::size_t i = most; i < numbers.size(); ++i) {
+  for (std::size_t i = kMost; i < numbers.size(); ++i) {
     if (numbers[i] == 0) continue;
-    return fmt::format("expected {} and then zeros, found {:g} as number {}; calibrate without {}",
-                       radtan ? "k1, k2, p1, p2, k3" : "k1, k2, k3, k4",
-                       numbers[i],
-                       i + 1,
-                       radtan ? "the rational, thin prism and tilted models" : "more numbers");
+    return fmt::format(
+        "expected k1, k2, k3, k4 and then zeros, found {:g} as number {}; calibrate "
+        "without more numbers",
+        numbers[i],
+        i + 1);
   }
-  intrinsics.model = radtan ? DistortionModel::kRadTan : DistortionModel::kEquidistant;
-  std::copy_n(numbers.begin(), std::min(most, numbers.size()), intrinsics.distortion.begin());
+  intrinsics.model = DistortionModel::kEquidistant;
+  std::copy_n(numbers.begin(), kMost, intrinsics.distortion.begin());
   return std::nullopt;
 }
 

@@ -35,7 +35,8 @@ Calibration CalibrationOf(const RecordedCamera& left, const std::optional<Record
 // drivers of cameras, in any case and with blanks or underscores:
 //
 //   plumb_bob, rational_polynomial, radtan, radial_tangential, Brown Conrady
-//                      k1 k2 p1 p2 [k3], followed only by zeros
+//                      k1 k2 p1 p2 [k3 [k4 k5 k6]], followed only by zeros: radtan, or rational if
+//                      any of k4 to k6 is not zero
 //   equidistant, fisheye, Kannala Brandt, kannala_brandt4
 //                      k1 k2 k3 k4, followed only by zeros
 //   none, "", Inverse Brown Conrady, Modified Brown Conrady, others
