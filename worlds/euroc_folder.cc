@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/parallel.h"
 #include "plumbline/io/atomic_file.h"
+#include "plumbline/io/cameras/camera_file.h"
 #include "plumbline/io/export/png.h"
+#include "worlds/overlay.h"
 #include "worlds/sequence_formats.h"
 
 #include <algorithm>
@@ -128,11 +130,18 @@ void WriteEurocFolder(const SyntheticSequence& sequence,
   MakeFolder(imu);
   MakeFolder(truth);
   if (sequence.options().depth) MakeFolder(depth / "data");
+  const fs::path masks[2] = {folder / "mask0", folder / "mask1"};
+  if (sequence.options().person) {
+    for (const fs::path& mask : masks) MakeFolder(mask);
+  }
   ParallelFor(sequence.size(), threads, [&](int frame) {
     const std::string name = ImageName(sequence, frame);
     for (int camera = 0; camera < 2; ++camera) {
       const Rendering ideal = sequence.RenderIdeal(frame, camera);
       WriteGrayPng(cameras[camera] / "data" / name, sequence.Sense(ideal.light, frame, camera));
+      if (sequence.options().person) {
+        WriteGrayPng(masks[camera] / name, sequence.MaskOfPerson(frame, camera));
+      }
       if (camera == 0 && sequence.options().depth) {
         WriteDepthPng(
             depth / "data" / name, sequence.SenseDepthOf(ideal.depth, frame), kDepthFactor);
@@ -149,8 +158,17 @@ void WriteEurocFolder(const SyntheticSequence& sequence,
     WriteFileAtomically(depth / "sensor.yaml", DepthYaml(sequence));
     WriteFileAtomically(depth / "data.csv", ImageList(sequence));
   }
+  const Camera& left = sequence.calibration().left;
+  if (sequence.options().text) {
+    WriteGrayPng(folder / "mask_text.png", TextMask(left.width(), left.height()));
+  }
+  if (sequence.options().lens != SynthLens::kEuroc) {
+    WriteFileAtomically(folder / "camera.yaml", FormatCamera(sequence.calibration()));
+  }
   for (int camera = 0; camera < 2; ++camera) {
-    WriteFileAtomically(cameras[camera] / "sensor.yaml", SensorYaml(sequence, camera));
+    if (sequence.options().lens == SynthLens::kEuroc) {
+      WriteFileAtomically(cameras[camera] / "sensor.yaml", SensorYaml(sequence, camera));
+    }
     WriteFileAtomically(cameras[camera] / "data.csv", ImageList(sequence));
   }
 }

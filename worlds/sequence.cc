@@ -5,13 +5,17 @@
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/parallel.h"
+#include "plumbline/base/units.h"
 #include "worlds/noise.h"
 #include "worlds/world_catalog.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <optional>
+#include <string>
 
 namespace plumbline {
 namespace {
@@ -30,6 +34,9 @@ const SynthOptions& Checked(const SynthOptions& options) {
   }
   if (options.camera == SynthCamera::kKitti && options.distortion) {
     throw InputError("distortion: expected false with camera: kitti, found true");
+  }
+  if (options.camera == SynthCamera::kKitti && options.lens != SynthLens::kEuroc) {
+    throw InputError("lens: expected euroc with camera: kitti, found another one");
   }
   return options;
 }
@@ -66,6 +73,51 @@ CameraIntrinsics EurocIntrinsics(bool distortion, bool right) {
   return intrinsics;
 }
 
+// A lens that shows `view_deg` across on a chip of EuRoC's size. The right one differs a little.
+CameraIntrinsics WideIntrinsics(const SynthOptions& options, bool right) {
+  struct Numbers {
+    DistortionModel model = DistortionModel::kNone;
+    std::array<double, kMostCoefficients> distortion{};
+  };
+  const auto numbers = [&]() -> Numbers {
+    switch (options.lens) {
+      case SynthLens::kEquidistant:
+        return {DistortionModel::kEquidistant, {0.0035, 0.0007, -0.002, 0.0002}};
+      case SynthLens::kRational:
+        return {DistortionModel::kRational, {8.5, 4.2, 0.0002, -0.0001, 0.21, 8.85, 7.06, 1.1}};
+      case SynthLens::kFov:
+        return {DistortionModel::kFov, {0.93}};
+      case SynthLens::kDoubleSphere:
+        return {DistortionModel::kDoubleSphere, {-0.18, 0.59}};
+      case SynthLens::kEucm:
+        return {DistortionModel::kEucm, {0.63, 1.04}};
+      case SynthLens::kOmni:
+        return {DistortionModel::kOmni, {1.4, -0.03, 0.01, 0.0002, 0.0001}};
+      case SynthLens::kEuroc:
+      case SynthLens::kPinhole:
+        break;
+    }
+    return {};
+  }();
+  CameraIntrinsics intrinsics = EurocIntrinsics(false, right);
+  intrinsics.fx = intrinsics.fy = 1;
+  intrinsics.model = numbers.model;
+  intrinsics.distortion = numbers.distortion;
+  const double half = 0.5 * options.view_deg * kDegree;
+  CameraIntrinsics unit = intrinsics;
+  unit.cx = unit.cy = 0;
+  const std::optional<Eigen::Vector2d> border =
+      Camera(unit).Project({math::Sin(half), 0, math::Cos(half)});
+  if (!border) {
+    throw InputError("view_deg: expected a view that the lens has, found " +
+                     std::to_string(options.view_deg));
+  }
+  const double no_two_are_alike = right ? 0.998 : 1;
+  intrinsics.fx = no_two_are_alike * 0.5 * intrinsics.width / border->x();
+  intrinsics.fy = 0.999 * intrinsics.fx;
+  return intrinsics;
+}
+
 // Intrinsics of the odometry sequences 00 to 02.
 CameraIntrinsics KittiIntrinsics() {
   CameraIntrinsics intrinsics;
@@ -78,6 +130,9 @@ CameraIntrinsics KittiIntrinsics() {
 }
 
 Camera MakeCamera(const SynthOptions& options, bool right, double scale) {
+  if (options.lens != SynthLens::kEuroc) {
+    return Camera(Scaled(WideIntrinsics(options, right), scale));
+  }
   return Camera(Scaled(options.camera == SynthCamera::kKitti
                            ? KittiIntrinsics()
                            : EurocIntrinsics(options.distortion, right),
@@ -89,11 +144,12 @@ Calibration MakeCalibration(const SynthOptions& options) {
   calibration.left = MakeCamera(options, false, options.scale);
   calibration.right = MakeCamera(options, true, options.scale);
   calibration.right_from_left.translation = {-options.baseline, 0, 0};
-  if (options.distortion) {  // nor is any pair mounted in perfect alignment
+  const bool rectified = !options.distortion && options.lens == SynthLens::kEuroc;
+  if (!rectified) {  // nor is any pair mounted in perfect alignment
     calibration.right_from_left.rotation = ExpSo3({0.0021, -0.0044, 0.0016});
     calibration.right_from_left.translation += Eigen::Vector3d(0, 0.0004, -0.0008);
   }
-  calibration.rectified = !options.distortion;
+  calibration.rectified = rectified;
   calibration.rate_hz = options.rate_hz;
   // The body looks along its own x axis, z up, and carries the camera a little ahead of itself.
   Eigen::Matrix3d axes;
@@ -148,6 +204,11 @@ std::vector<double> TexelSizes(const World& world,
   return texels;
 }
 
+// Pixels per radian in the middle.
+double FocalOf(const SynthOptions& options, const Camera& left) {
+  return options.lens == SynthLens::kEuroc ? left.intrinsics().fx : left.CentreFocal();
+}
+
 RendererOptions MakeRendererOptions(
     const World& world, const SynthOptions& options, double focal, int frames, int threads) {
   RendererOptions made;
@@ -180,9 +241,9 @@ SyntheticSequence::SyntheticSequence(const WorldSource& source,
       calibration_(MakeCalibration(options)),
       made_(MakeWorld(source, options)),
       frames_(CountFrames(made_.path, options)),
-      renderer_(
-          made_.scene,
-          MakeRendererOptions(made_, options, calibration_.left.intrinsics().fx, frames_, threads)),
+      renderer_(made_.scene,
+                MakeRendererOptions(
+                    made_, options, FocalOf(options, calibration_.left), frames_, threads)),
       left_rays_(calibration_.left),
       right_rays_(*calibration_.right) {
   if (options.auto_exposure) gains_ = FindGains(threads);
@@ -277,7 +338,24 @@ GrayImage SyntheticSequence::Sense(const Image<float>& light, int frame, int cam
                           options_.lens_blur};
   const std::uint64_t chip = HashCell(camera, 0, MixBits(options_.seed + kNoiseStream));
   const std::uint64_t stream = HashCell(frame, camera, MixBits(options_.seed + kNoiseStream));
-  return Expose(light, model, chip, stream);
+  GrayImage image = Expose(light, model, chip, stream);
+  if (options_.person) DrawPerson(CameraOf(camera), PersonIn(frame, camera), image);
+  if (options_.text) DrawText(image);
+  return image;
+}
+
+const Camera& SyntheticSequence::CameraOf(int camera) const {
+  return camera == 0 ? calibration_.left : *calibration_.right;
+}
+
+Person SyntheticSequence::PersonIn(int frame, int camera) const {
+  constexpr double kDistance = 2.5;  // metres
+  const double disparity = calibration_.left.CentreFocal() * options_.baseline / kDistance;
+  return {TimeOf(frame), camera == 0 ? 0 : disparity};
+}
+
+GrayImage SyntheticSequence::MaskOfPerson(int frame, int camera) const {
+  return PersonMask(CameraOf(camera), PersonIn(frame, camera));
 }
 
 DepthImage SyntheticSequence::SenseDepthOf(const DepthImage& depth, int frame) const {

@@ -6,6 +6,7 @@
 #include "plumbline/geometry/trajectory.h"
 #include "plumbline/image/image.h"
 #include "worlds/imu.h"
+#include "worlds/overlay.h"
 #include "worlds/renderer.h"
 #include "worlds/sensor.h"
 #include "worlds/synth_options.h"
@@ -57,6 +58,8 @@ class SyntheticSequence {
   Rendering RenderIdeal(int frame, int camera) const;
   // Returns the camera's image of it: exposure, vignetting, noise, response, rounding.
   GrayImage Sense(const Image<float>& light, int frame, int camera) const;
+  // Black where SynthOptions::person is in an image.
+  GrayImage MaskOfPerson(int frame, int camera) const;
   GrayImage RenderImage(int frame, int camera) const {
     return Sense(RenderIdeal(frame, camera).light, frame, camera);
   }
@@ -64,6 +67,8 @@ class SyntheticSequence {
   DepthImage SenseDepthOf(const DepthImage& depth, int frame) const;
 
  private:
+  const Camera& CameraOf(int camera) const;
+  Person PersonIn(int frame, int camera) const;
   std::vector<double> FindGains(int threads) const;
 
   std::string world_;

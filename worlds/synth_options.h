@@ -21,6 +21,29 @@ constexpr auto EnumNames(std::type_identity<SynthCamera>) {
                     std::pair{SynthCamera::kKitti, "kitti"}};
 }
 
+// Lens of SynthCamera::kEuroc. kEuroc is EuRoC's; the others show `view_deg` across: pinhole
+// without distortion, and the models of DistortionModel with numbers of the size of real lenses.
+enum class SynthLens {
+  kEuroc,
+  kPinhole,
+  kEquidistant,
+  kRational,
+  kFov,
+  kDoubleSphere,
+  kEucm,
+  kOmni
+};
+constexpr auto EnumNames(std::type_identity<SynthLens>) {
+  return std::array{std::pair{SynthLens::kEuroc, "euroc"},
+                    std::pair{SynthLens::kPinhole, "pinhole"},
+                    std::pair{SynthLens::kEquidistant, "equidistant"},
+                    std::pair{SynthLens::kRational, "rational"},
+                    std::pair{SynthLens::kFov, "fov"},
+                    std::pair{SynthLens::kDoubleSphere, "double_sphere"},
+                    std::pair{SynthLens::kEucm, "eucm"},
+                    std::pair{SynthLens::kOmni, "omni"}};
+}
+
 // Recording of a world: camera, sensor, path, amount of work.
 struct SynthOptions {
   int frames = 0;  // 0: the whole path
@@ -30,6 +53,8 @@ struct SynthOptions {
   SynthCamera camera = SynthCamera::kEuroc;
   double scale = 1;        // of the image, 1 is the camera's
   double baseline = 0.11;  // metres
+  SynthLens lens = SynthLens::kEuroc;
+  double view_deg = 120;   // across, of all lenses but kEuroc
   bool distortion = true;  // radial-tangential lens, as in EuRoC; false: ideal pinhole
   int samples = 4;         // per pixel
   double shutter_ms = 0;   // exposure time; 0: an instant, no motion blur
@@ -43,6 +68,8 @@ struct SynthOptions {
   double noise = 1;
   bool depth = false;  // depth images in the EuRoC format too
   double depth_noise = 1;
+  bool text = false;    // a line of letters in all images
+  bool person = false;  // somebody who walks by in half of the images
   double imu_rate_hz = 200;
   double imu_noise = 1;
   double texel = 0.7;           // pixels
@@ -61,6 +88,10 @@ void VisitFields(Visitor&& visit, SynthOptions& o) {
         "euroc: 752 x 480 with a wide lens; kitti: 1241 x 376, ideal and rectified");
   visit("scale", o.scale, "of the image, 1 is that of the camera", Range{0.1, 4});
   visit("baseline", o.baseline, "distance of the two cameras [m]", Range{0.01, 1});
+  visit("lens",
+        o.lens,
+        "of camera: euroc; all but euroc show view_deg across, and are written as camera.yaml");
+  visit("view_deg", o.view_deg, "view of the lens across [degrees]", Range{40, 130});
   visit("distortion", o.distortion, "lens distortion; without it an ideal rectified pair");
   visit("samples", o.samples, "samples per pixel against aliasing", Range{1, 64});
   visit("shutter_ms", o.shutter_ms, "time the shutter is open, 0: no motion blur", Range{0, 200});
@@ -81,6 +112,10 @@ void VisitFields(Visitor&& visit, SynthOptions& o) {
         o.depth_noise,
         "of the depth images, 1 as a real sensor, 0 none",
         Range{0, 20});
+  visit("text", o.text, "a line of letters in all images; mask_text.png is black there");
+  visit("person",
+        o.person,
+        "somebody walks by in half of the images; mask0 and mask1 are black there");
   visit("imu_rate_hz", o.imu_rate_hz, "samples of the inertial sensor per second", Range{1, 2000});
   visit("imu_noise", o.imu_noise, "of the inertial sensor, 1 as in EuRoC, 0 none", Range{0, 100});
   visit("texel", o.texel, "texture cell [px] where the path comes closest", Range{0.2, 50});

@@ -4,8 +4,10 @@
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/export/png.h"
 #include "plumbline/io/trajectory_io.h"
+#include "worlds/overlay.h"
 #include "worlds/sequence_formats.h"
 
+#include <cstddef>
 #include <sstream>
 #include <string>
 
@@ -46,15 +48,15 @@ std::string GroundTruthText(const SyntheticSequence& sequence) {
 std::string CameraYaml(const SyntheticSequence& sequence) {
   const Calibration& calibration = sequence.calibration();
   const CameraIntrinsics& k = calibration.left.intrinsics();
-  const bool lens = k.model != DistortionModel::kNone;
+  const DistortionForm& form = FormOf(k.model);
   std::ostringstream text = TextStream(16);
   text << "# Rendered by Plumbline.\nmodel: pinhole\nsize: [" << k.width << ", " << k.height
        << "]\nintrinsics: [" << k.fx << ", " << k.fy << ", " << k.cx << ", " << k.cy
-       << "]\ndistortion: " << (lens ? "radtan" : "none") << '\n';
-  if (lens) {
-    text << "distortion_coefficients: [" << k.distortion[0] << ", " << k.distortion[1] << ", "
-         << k.distortion[2] << ", " << k.distortion[3] << ", " << k.distortion[4] << "]\n";
+       << "]\ndistortion: " << form.name << '\n';
+  for (std::size_t i = 0; i < form.most; ++i) {
+    text << (i == 0 ? "distortion_coefficients: [" : ", ") << k.distortion[i];
   }
+  if (form.most > 0) text << "]\n";
   text << "rate_hz: " << *calibration.rate_hz << "\ndepth_factor: " << kDepthFactor << '\n';
   return text.str();
 }
@@ -67,13 +69,21 @@ void WriteTumFolder(const SyntheticSequence& sequence,
                     const std::function<void(int)>& done) {
   MakeFolder(folder / "rgb");
   MakeFolder(folder / "depth");
+  if (sequence.options().person) MakeFolder(folder / "mask0");
   ParallelFor(sequence.size(), threads, [&](int frame) {
     const Rendering ideal = sequence.RenderIdeal(frame, 0);
     const std::string name = ImageName(sequence, frame);
     WriteGrayPng(folder / "rgb" / name, sequence.Sense(ideal.light, frame, 0));
+    if (sequence.options().person) {
+      WriteGrayPng(folder / "mask0" / name, sequence.MaskOfPerson(frame, 0));
+    }
     WriteDepthPng(folder / "depth" / name, sequence.SenseDepthOf(ideal.depth, frame), kDepthFactor);
     done(frame);
   });
+  const Camera& left = sequence.calibration().left;
+  if (sequence.options().text) {
+    WriteGrayPng(folder / "mask_text.png", TextMask(left.width(), left.height()));
+  }
   const ImuRecording recording = sequence.Imu();
   WriteFileAtomically(folder / "imu_ideal.csv", ImuCsv(sequence, recording.ideal));
   WriteFileAtomically(folder / "imu.csv", ImuCsv(sequence, recording.noisy));

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <type_traits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -312,6 +313,106 @@ TEST(SyntheticSequence, ScaleMakesTheSameImageSmaller) {
     }
   }
   EXPECT_LT(difference, 0.5 * contrast);
+}
+
+// The level of an image of light where a camera sees a direction.
+float LightAt(const Image<float>& light, const Camera& camera, const Eigen::Vector3d& ray) {
+  const Eigen::Vector2d px = camera.Project(ray).value();
+  return light.at(static_cast<int>(std::lround(px.x())), static_cast<int>(std::lround(px.y())));
+}
+
+// Every lens shows the same world in the same directions.
+TEST(SyntheticSequence, EveryLensSeesWhatAPinholeSees) {
+  SynthOptions options = Small();
+  options.noise = 0;
+  options.samples = 16;
+  options.texel = 1;
+  options.lens = SynthLens::kPinhole;
+  options.view_deg = 100;
+  options.scale = 0.5;
+  const SyntheticSequence pinhole("room", options, 2);
+  const Image<float> expected = pinhole.RenderIdeal(1, 0).light;
+  for (const auto& [lens, name] : EnumNames(std::type_identity<SynthLens>{})) {
+    if (lens == SynthLens::kEuroc || lens == SynthLens::kPinhole) continue;
+    options.lens = lens;
+    const SyntheticSequence sequence("room", options, 2);
+    const Camera& camera = sequence.calibration().left;
+    const double half = 50 * M_PI / 180;
+    EXPECT_NEAR(camera.Project({std::sin(half), 0, std::cos(half)})->x() - camera.intrinsics().cx,
+                0.5 * camera.width(),
+                1e-6)
+        << name;
+    const Image<float> light = sequence.RenderIdeal(1, 0).light;
+    double difference = 0, contrast = 0;
+    float last = 0;
+    for (double y = -0.4; y < 0.4; y += 0.02) {
+      for (double x = -0.7; x < 0.7; x += 0.02) {
+        const float found = LightAt(light, camera, {x, y, 1});
+        const float wanted = LightAt(expected, pinhole.calibration().left, {x, y, 1});
+        difference += static_cast<double>(std::abs(found - wanted));
+        contrast += static_cast<double>(std::abs(wanted - last));
+        last = wanted;
+      }
+    }
+    EXPECT_LT(difference, 0.6 * contrast) << name;
+  }
+}
+
+TEST(WriteSequence, AnyLensIsReadAsItWasRendered) {
+  for (const auto format : {SequenceFormat::kEuroc, SequenceFormat::kTum}) {
+    for (const auto& [lens, name] : EnumNames(std::type_identity<SynthLens>{})) {
+      SynthOptions options = Small();
+      options.frames = 2;
+      options.lens = lens;
+      options.view_deg = 90;
+      const ScratchFolder folder;
+      const SyntheticSequence sequence("room", options, 1);
+      WriteSequence(sequence, format, folder / "s", 1);
+      const auto dataset = OpenDataset(folder / "s");
+      if (lens == SynthLens::kEuroc) continue;  // in the form of its data set, with fewer digits
+      EXPECT_EQ(dataset->calibration().left.intrinsics().model,
+                sequence.calibration().left.intrinsics().model)
+          << name;
+      EXPECT_NEAR(dataset->calibration().left.intrinsics().fx,
+                  sequence.calibration().left.intrinsics().fx,
+                  1e-9)
+          << name;
+      EXPECT_TRUE(dataset->info().ground_truth) << name;
+    }
+  }
+}
+
+TEST(WriteSequence, TextAndAPersonHaveMasks) {
+  SynthOptions options = Small();
+  options.rate_hz = 1;
+  options.frames = 8;
+  options.lens = SynthLens::kPinhole;
+  const ScratchFolder folder;
+  WriteSequence(SyntheticSequence("room", options, 1), SequenceFormat::kEuroc, folder / "none", 1);
+  options.text = options.person = true;
+  WriteSequence(SyntheticSequence("room", options, 1), SequenceFormat::kEuroc, folder / "both", 1);
+  const auto none = OpenDataset(folder / "none");
+  const auto both =
+      OpenDataset(folder / "both", {.masks = {(folder / "both/mask_text.png").string()}});
+  int with_person = 0;
+  for (std::size_t i = 0; i < both->size(); ++i) {
+    const SensorFrame plain = *none->Read(i), drawn = *both->Read(i);
+    ASSERT_TRUE(drawn.left_mask);
+    int different = 0, black = 0;
+    for (int y = 0; y < plain.left.height(); ++y) {
+      for (int x = 0; x < plain.left.width(); ++x) {
+        const bool used = drawn.left_mask->at(x, y) != 0;
+        black += used ? 0 : 1;
+        if (plain.left.at(x, y) == drawn.left.at(x, y)) continue;
+        ++different;
+        EXPECT_FALSE(used) << x << " " << y;
+      }
+    }
+    EXPECT_GT(different, black / 2);
+    with_person += black > 2000 ? 1 : 0;
+  }
+  EXPECT_GE(with_person, 3);
+  EXPECT_LE(with_person, 4);
 }
 
 TEST(SyntheticSequence, KittisCamerasAreIdealAndScale) {
