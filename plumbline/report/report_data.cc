@@ -6,6 +6,7 @@
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/options.h"
 #include "plumbline/base/options_io.h"
+#include "plumbline/image/rectify.h"
 #include "plumbline/report/run_scene.h"
 #include "plumbline/report/timing.h"
 
@@ -359,6 +360,21 @@ Json Samples(const std::vector<SampleImage>& samples, const ShownFrames& shown) 
   return list;
 }
 
+// What is used of the lens, with the outline in the image as delivered; null if all of it is.
+Json Lens(const Dataset& dataset) {
+  if (!dataset.info().has_calibration) return nullptr;
+  const Rectifier rectifier(dataset.calibration());
+  if (rectifier.PassesUnchanged()) return nullptr;
+  Json outline = Json::array();
+  for (const Eigen::Vector2d& px : rectifier.LeftCoverage().outline) {
+    outline.push_back({std::lround(px.x()), std::lround(px.y())});
+  }
+  return {{"width", dataset.calibration().left.width()},
+          {"height", dataset.calibration().left.height()},
+          {"text", ViewText(rectifier)},
+          {"outline", std::move(outline)}};
+}
+
 // Returns the frames that are shown whatever their number: those of events and images.
 std::vector<std::size_t> FramesSpokenOf(const RunScene& scene,
                                         const std::vector<SampleImage>& samples) {
@@ -388,6 +404,7 @@ std::string FormatReportData(const RunResult& result,
   json["stages"] = Stages(result.frames, shown);
   json["scene"] = Scene(result, dataset, scene, shown);
   json["samples"] = Samples(context.samples, shown);
+  json["lens"] = Lens(dataset);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

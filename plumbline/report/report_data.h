@@ -28,7 +28,8 @@ struct ReportContext {
 // and options), "counts" (of all frames), "frames" (columns, one row for each displayed frame, with
 // its number), "stages" (times, of the same rows; statistics of all frames), "scene" (maps,
 // trajectories, errors, loops and the like; arrays of float32 in base64, metres, relative to
-// "origin"), "samples" (images as data: URIs, with their features). References to frames are rows,
+// "origin"), "samples" (images as data: URIs, with their features), "lens" (what is used of it,
+// with its outline in the image as delivered; null if all of it is). References to frames are rows,
 // except in "keyframe_frames" and "relative_to", which have numbers of frames.
 //
 // Text that is not UTF-8 is repaired.

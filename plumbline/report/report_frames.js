@@ -51,8 +51,29 @@ function makePicture(sample) {
       "div", {class: "picture"}, make("img", {src: image, width, height, alt}), holder.content);
 }
 
+// The image as delivered, with the outline of the part that is used.
+function lensFigure(lens) {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  svg.setAttribute("viewBox", `0 0 ${lens.width} ${lens.height}`);
+  svg.setAttribute("role", "img");
+  svg.setAttribute("aria-label", "Used part of the image as delivered");
+  svg.style.width = "16rem";
+  const add = (tag, attributes) => {
+    const shape = document.createElementNS("http://www.w3.org/2000/svg", tag);
+    for (const [name, value] of Object.entries(attributes)) shape.setAttribute(name, value);
+    svg.append(shape);
+  };
+  add("rect", {width: lens.width, height: lens.height, fill: "none", stroke: "currentColor",
+               "stroke-width": lens.width / 200});
+  add("polygon", {points: lens.outline.map((px) => px.join(",")).join(" "),
+                  fill: paint("matched-line"), "fill-opacity": 0.25, stroke: paint("matched-line"),
+                  "stroke-width": lens.width / 150});
+  return make("figure", {}, svg, make("figcaption", {}, `Used of the lens: ${lens.text}.`));
+}
+
 function buildImages() {
   const body = sectionBody("images");
+  if (data.lens) body.append(lensFigure(data.lens));
   if (data.samples.length === 0) {
     body.append(note("The run kept no images: no frame was processed."));
     return;
