@@ -18,7 +18,7 @@ std::vector<RunInput> CommandInputs(const CommandLine& line, const Dataset& data
   const auto add = [&](const std::filesystem::path& path) {
     if (std::filesystem::is_regular_file(path, error)) inputs.push_back({path});
   };
-  for (const char* option : {"--camera", "--poses", "--config"}) {
+  for (const char* option : {"--camera", "--poses", "--config", "--mask"}) {
     for (const std::string& path : line.Values(option)) add(path);
   }
   if (dataset.info().ground_truth) add(dataset.info().ground_truth->path);
@@ -34,6 +34,11 @@ std::optional<int> ReadMaxWidth(const CommandLine& line) {
   constexpr int kNarrowest = 16;  // pixels; nothing is left to see by then
   if (!line.Has("--max-width")) return std::nullopt;
   return line.Count("--max-width", 0, {kNarrowest, kLongestSide});
+}
+
+std::optional<double> ReadViewAngle(const CommandLine& line) {
+  if (!line.Has("--view-angle")) return std::nullopt;
+  return line.Count("--view-angle", 0, {10, 150});
 }
 
 }  // namespace plumbline

@@ -42,6 +42,7 @@ CommandSyntax InfoSyntax() {
            {"--ground-truth", "FILE|none", "poses to look at in place of those with the data"},
            {"--rotate", "auto|none|90|180|270", kRotateHelp},
            {"--max-width", "PIXELS", kMaxWidthHelp},
+           {"--view-angle", "DEGREES", kViewAngleHelp},
            {"--check", "", "decode every image and name those that cannot be used"}}};
 }
 
@@ -79,8 +80,7 @@ void PrintTimes(const DatasetInfo& info) {
 std::string Describe(const Camera& camera, bool rectified) {
   const CameraIntrinsics& k = camera.intrinsics();
   std::string model = rectified ? "rectified" : "no distortion";
-  if (k.model == DistortionModel::kRadTan) model = "radtan distortion";
-  if (k.model == DistortionModel::kEquidistant) model = "equidistant distortion";
+  if (k.model != DistortionModel::kNone) model = fmt::format("{} distortion", FormOf(k.model).name);
   return fmt::format("{}x{}, fx {:.6g} fy {:.6g} cx {:.6g} cy {:.6g}, {}",
                      k.width,
                      k.height,
@@ -106,6 +106,8 @@ void PrintCalibration(const DatasetInfo& info) {
     Row("right camera", Describe(*c.right, c.rectified));
     Row("baseline", fmt::format("{:.4f} m", c.right_from_left.translation.norm()));
   }
+  const Rectifier rectifier(c);
+  if (!rectifier.PassesUnchanged()) Row("used view", ViewText(rectifier));
   if (c.depth_factor) Row("depth", fmt::format("{:g} per metre", *c.depth_factor));
 }
 
@@ -179,6 +181,7 @@ int InfoCommand(std::span<const std::string> arguments) {
   options.topics = line.Values("--topic");
   options.rotate = ReadRotation(line);
   options.max_width = ReadMaxWidth(line);
+  options.view_angle_deg = ReadViewAngle(line);
   if (const auto text = line.Value("--sensor")) {
     options.sensor = ParseChoice<SensorKind>("--sensor", *text);
   }

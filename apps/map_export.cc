@@ -45,6 +45,7 @@ CommandSyntax MapExportSyntax() {
            {"--topic", "NAME", "of --images, a bag or an MCAP file; may be repeated"},
            {"--camera", "FILE", "of --images: camera file, or the name of a built-in camera"},
            {"--rotate", "auto|none|90|180|270", "of --images, as for the run (auto)"},
+           {"--view-angle", "DEGREES", "of --images, as for the run"},
            {"--frames",
             "keyframes|all|every:N",
             "which frames are images: the keyframes, all frames with a pose as well, or every N-th "
@@ -84,6 +85,7 @@ ExportRequest ReadExportRequest(const CommandLine& line) {
   RefuseWithout(line, "--topic", line.Has("--images"), "--images");
   RefuseWithout(line, "--camera", line.Has("--images"), "--images");
   RefuseWithout(line, "--rotate", line.Has("--images"), "--images");
+  RefuseWithout(line, "--view-angle", line.Has("--images"), "--images");
   RefuseWithout(line, "--model", colmap, "--to colmap");
   if (const auto images = line.Value("--images")) request.images = *images;
   if (const auto text = line.Value("--format"); text && *text != "auto") {
@@ -92,6 +94,7 @@ ExportRequest ReadExportRequest(const CommandLine& line) {
   request.images_options.topics = line.Values("--topic");
   request.images_options.camera = line.Value("--camera");
   request.images_options.rotate = ReadRotation(line);
+  request.images_options.view_angle_deg = ReadViewAngle(line);
   if (const auto text = line.Value("--model")) {
     request.colmap_files = ParseChoice<ColmapFiles>("--model", *text);
   }

@@ -72,6 +72,10 @@ CommandSyntax RunSyntax() {
        {"--ground-truth", "FILE|none", "poses to compare with (default: those with the data)"},
        {"--rotate", "auto|none|90|180|270", kRotateHelp},
        {"--max-width", "PIXELS", kMaxWidthHelp},
+       {"--view-angle", "DEGREES", kViewAngleHelp},
+       {"--mask",
+        "FILE|TOPIC",
+        "image that is black where nothing is to be used; may be repeated (left, right)"},
        {"--config", "FILE", "options from a YAML file; may be repeated"},
        {"--set", "KEY=VALUE", "one option; may be repeated"},
        {"--from", "N", "first frame (default 0)"},
@@ -199,6 +203,8 @@ DatasetOptions ReadDatasetOptions(const CommandLine& line) {
   options.topics = line.Values("--topic");
   options.rotate = ReadRotation(line);
   options.max_width = ReadMaxWidth(line);
+  options.view_angle_deg = ReadViewAngle(line);
+  options.masks = line.Values("--mask");
   return options;
 }
 
@@ -221,6 +227,8 @@ RunFrames OpenLive(const CommandLine& line, const RunSetup& setup) {
   options.side_by_side = line.Has("--side-by-side");
   options.rotate = ReadRotation(line);
   options.max_width = ReadMaxWidth(line);
+  options.view_angle_deg = ReadViewAngle(line);
+  options.masks = line.Values("--mask");
   input.live = OpenLiveSource(line.Positional(0), options);
   input.dataset = std::make_shared<PassedFrames>(input.live->info());
   return input;

@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/features/stereo_pair_check.h"
 #include "plumbline/image/filters.h"
+#include "plumbline/matching/still_features.h"
 #include "plumbline/report/summary.h"
 #include "plumbline/slam/pipeline.h"
 #include "plumbline/viewer/viewer.h"
@@ -95,6 +96,7 @@ class FrameFeed {
       if (failure) std::rethrow_exception(failure);
     });
     NameShortage();
+    TellStillFeatures();
     Keeping([&] { FinishViewing(); });
     return std::move(result_);
   }
@@ -202,6 +204,17 @@ class FrameFeed {
           fmt::format("depth is zero everywhere in the first {} depth images: without "
                       "depth no map begins",
                       without_depth_));
+    }
+  }
+
+  // Tells of text or a part of the robot in the images.
+  void TellStillFeatures() {
+    for (const auto& [id, map] : result_.result.atlas.maps()) {
+      const auto note = StillFeaturesNote(FindStillFeatures(map));
+      if (!note) continue;
+      result_.notes.push_back(*note);
+      if (!quiet_) progress_.Say(*note);
+      return;
     }
   }
 

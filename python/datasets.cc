@@ -35,7 +35,25 @@ struct Preparation {
   std::optional<std::filesystem::path> ground_truth;
   std::string rotate;
   std::optional<int> max_width;
+  std::optional<double> view_angle;
+  py::object mask;
 };
+
+// Paths, or topics, of one mask or of a sequence of them.
+std::vector<std::string> ReadMasks(const py::object& mask) {
+  const auto path = [](const py::handle& one) {
+    try {
+      return one.cast<std::filesystem::path>().string();
+    } catch (const py::cast_error&) {
+      throw InputError("mask: expected a path, or a path for each camera, found " + Describe(one));
+    }
+  };
+  std::vector<std::string> masks;
+  if (mask.is_none()) return masks;
+  if (!py::isinstance<py::tuple>(mask) && !py::isinstance<py::list>(mask)) return {path(mask)};
+  for (const py::handle& one : mask) masks.push_back(path(one));
+  return masks;
+}
 
 std::shared_ptr<Dataset> Open(const std::filesystem::path& path,
                               const std::optional<std::string>& sensor,
@@ -51,6 +69,8 @@ std::shared_ptr<Dataset> Open(const std::filesystem::path& path,
   options.camera = camera;
   options.rotate = ParseChoice<Rotation>("rotate", preparation.rotate);
   options.max_width = preparation.max_width;
+  options.view_angle_deg = preparation.view_angle;
+  options.masks = ReadMasks(preparation.mask);
   const py::gil_scoped_release release;
   return OpenDataset(path, options);
 }
@@ -132,6 +152,15 @@ void BindFrame(py::module_& module) {
           },
           "(rows, columns) float32 in metres along z, 0: not measured, or None; read-only, keeps "
           "the frame alive.")
+      .def_property_readonly(
+          "mask",
+          [](const py::object& self) -> py::object {
+            const auto& mask = self.cast<const PyFrame&>().images.left_mask;
+            if (!mask) return py::none();
+            return View(*mask, self);
+          },
+          "(rows, columns) uint8 of the left image, 0 where nothing is to be used, or None; "
+          "read-only, keeps the frame alive.")
       .def("__repr__", [](const PyFrame& frame) {
         const SensorFrame& images = frame.images;
         return fmt::format("<Frame at {} s: {}{} of {} x {}>",
@@ -181,8 +210,15 @@ void BindOpen(py::module_& module) {
          const std::vector<std::string>& topics,
          const std::optional<std::filesystem::path>& ground_truth,
          const std::string& rotate,
-         std::optional<int> max_width) {
-        return Open(path, sensor, camera, format, topics, {ground_truth, rotate, max_width});
+         std::optional<int> max_width,
+         std::optional<double> view_angle,
+         const py::object& mask) {
+        return Open(path,
+                    sensor,
+                    camera,
+                    format,
+                    topics,
+                    {ground_truth, rotate, max_width, view_angle, mask});
       },
       py::arg("path"),
       py::arg("sensor") = py::none(),
@@ -192,8 +228,10 @@ void BindOpen(py::module_& module) {
       py::arg("ground_truth") = py::none(),
       py::arg("rotate") = "auto",
       py::arg("max_width") = py::none(),
+      py::arg("view_angle") = py::none(),
+      py::arg("mask") = py::none(),
       R"(open(path, sensor=None, camera=None, format=None, topics=(), ground_truth=None,
-     rotate="auto", max_width=None) -> Dataset
+     rotate="auto", max_width=None, view_angle=None, mask=None) -> Dataset
 
 Opens a EuRoC folder, a TUM or ICL folder, a KITTI sequence, a folder of images, a bag of ROS 1 or
 ROS 2 (a folder or a .db3), an MCAP file or a video. sensor: "mono", "stereo" or "rgbd" (None: the richest the data offers).
@@ -202,6 +240,9 @@ camera: a camera file or the name of a built-in camera. format: "euroc", "tum", 
 images, in the order left, right, depth (empty: found out). ground_truth: a file of poses in place of those with the data,
 "none" for none. rotate: "auto", "none", "90", "180" or "270", clockwise ("auto": as a video or the
 EXIF data of stills ask). max_width: wider images are reduced to this width (None: to 2 megapixels).
+view_angle: widest view in degrees of the pinhole image that is cut out of a lens (None: 110 of lenses
+but radtan). mask: an image file, or one for each camera, that is black where nothing is to be used;
+of a bag or MCAP file also topics.
 Frames and calibration are those of the images as used. Raises InputError with the program's
 message.)");
 }

@@ -168,6 +168,8 @@ void RunningSystem::CheckFrame(const SensorFrame& frame) const {
   CheckImage("left", frame.left, calibration_);
   if (calibration_.right) CheckImage("right", *frame.right, calibration_);
   if (frame.depth) CheckImage("depth", *frame.depth, calibration_);
+  if (frame.left_mask) CheckImage("mask", *frame.left_mask, calibration_);
+  if (frame.right_mask) CheckImage("mask", *frame.right_mask, calibration_);
 }
 
 void RunningSystem::CheckStamp(std::int64_t stamp_ns) {

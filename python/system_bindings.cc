@@ -91,14 +91,36 @@ SensorFrame ReadImages(const Calibration& calibration, py::handle images, py::ha
   return frame;
 }
 
-FrameRecord Process(RunningSystem& system, py::handle images, py::handle stamp) {
+// Adds masks, one or a pair, to a frame.
+void AddMasks(py::handle mask, SensorFrame& frame) {
+  if (mask.is_none()) return;
+  const auto read = [](const py::object& one, const char* name) {
+    return one.is_none() ? nullptr : std::make_shared<const GrayImage>(ReadGray(one, name));
+  };
+  if (!py::isinstance<py::tuple>(mask) && !py::isinstance<py::list>(mask)) {
+    frame.left_mask = read(py::reinterpret_borrow<py::object>(mask), "mask");
+    return;
+  }
+  const auto pair = py::reinterpret_borrow<py::sequence>(mask);
+  if (!frame.right || pair.size() != 2) {
+    throw InputError(fmt::format("mask: expected {}, found {} masks",
+                                 frame.right ? "one or two" : "one array",
+                                 pair.size()));
+  }
+  frame.left_mask = read(py::object(pair[0]), "mask of the left image");
+  frame.right_mask = read(py::object(pair[1]), "mask of the right image");
+}
+
+FrameRecord Process(RunningSystem& system, py::handle images, py::handle stamp, py::handle mask) {
   SensorFrame frame = ReadImages(system.calibration(), images, stamp);
+  AddMasks(mask, frame);
   const py::gil_scoped_release release;
   return system.Process(std::move(frame));
 }
 
-void Feed(RunningSystem& system, py::handle images, py::handle stamp) {
+void Feed(RunningSystem& system, py::handle images, py::handle stamp, py::handle mask) {
   SensorFrame frame = ReadImages(system.calibration(), images, stamp);
+  AddMasks(mask, frame);
   const py::gil_scoped_release release;
   system.Feed(std::move(frame));
 }
@@ -331,19 +353,22 @@ options: groups as dictionaries, features={"line_count": 100}, or dotted keys,
            &Process,
            py::arg("images"),
            py::arg("stamp_ns") = py::none(),
-           R"(process(images, stamp_ns=None) -> FrameResult
+           py::arg("mask") = py::none(),
+           R"(process(images, stamp_ns=None, mask=None) -> FrameResult
 
 Takes a frame and waits until it is tracked. images: a Frame (its own stamp), an array of uint8
 (rows, columns), a pair (left, right), or (left, depth) with depth in metres (float) or in 16 bits
 over the calibration's depth_factor. They are copied, and may be changed at once. stamp_ns: whole
-nanoseconds, later than the frame before. The GIL is released meanwhile.)")
+nanoseconds, later than the frame before. mask: an array of uint8 like the image, 0 where nothing is
+to be used, or a pair of them. The GIL is released meanwhile.)")
       .def("feed",
            &Feed,
            py::arg("images"),
            py::arg("stamp_ns") = py::none(),
-           R"(feed(images, stamp_ns=None)
+           py::arg("mask") = py::none(),
+           R"(feed(images, stamp_ns=None, mask=None)
 
-Takes a frame, images and stamp_ns as process() does, and does not wait until it is tracked: with
+Takes a frame, images, stamp_ns and mask as process() does, and does not wait until it is tracked: with
 slam.mode lockstep tracking is up to two frames behind, with live frames may be dropped. results()
 tells what came of the frames.)")
       .def("skip",

@@ -26,6 +26,7 @@ constexpr double kMinFocal = 0.01, kMaxFocal = 1000;
 // Largest distance of the principal point from an image that was cut out, in longer sides.
 constexpr double kFarthestCentre = 10;
 constexpr double kLargestCoefficient = 1e6;
+constexpr double kMinViewDeg = 10, kMaxViewDeg = 150;
 // Rounding errors of a calibration file allowed in a pair that is declared rectified.
 constexpr double kMaxRectifiedAngle = 1e-3;  // radians
 constexpr double kMaxRectifiedTilt = 0.02;   // relative to the baseline
@@ -168,6 +169,7 @@ std::optional<std::string> PairFault(const Calibration& calibration) {
 
 std::optional<std::string> CalibrationFault(const Calibration& calibration) {
   if (auto fault = CameraFault(calibration.left.intrinsics())) return "left camera: " + *fault;
+  if (auto fault = ViewAngleFault(calibration)) return fault;
   if (calibration.depth_factor) {
     if (auto fault = DepthFactorFault(*calibration.depth_factor)) return fault;
   }
@@ -175,6 +177,12 @@ std::optional<std::string> CalibrationFault(const Calibration& calibration) {
   if (!calibration.right) return std::nullopt;
   if (auto fault = CameraFault(calibration.right->intrinsics())) return "right camera: " + *fault;
   return PairFault(calibration);
+}
+
+std::optional<std::string> ViewAngleFault(const Calibration& calibration) {
+  if (!calibration.view_angle_deg) return std::nullopt;
+  return RangeFault(
+      "a view angle", *calibration.view_angle_deg, kMinViewDeg, kMaxViewDeg, " degrees");
 }
 
 std::optional<std::string> RectifiedFault(const Calibration& calibration) {

@@ -27,6 +27,9 @@ struct Calibration {
   std::optional<double> depth_factor;
   // Nominal frames per second. Required for folders of images, which have no times.
   std::optional<double> rate_hz;
+  // Widest view of the pinhole images that are cut out of the lens, across and down, in degrees.
+  // nullopt: chosen by the lens (rectify.h).
+  std::optional<double> view_angle_deg;
   // body: the frame of the ground truth, if it is not the camera's.
   std::optional<Rigid3> body_from_left;
 };
@@ -63,6 +66,9 @@ std::optional<std::string> PairFault(const Calibration& calibration);
 // Checks a whole calibration: sizes, intrinsics and lenses of its cameras, their relative pose, and
 // the depth factor. It is for calibrations made by a program, which no reader of files has checked.
 std::optional<std::string> CalibrationFault(const Calibration& calibration);
+
+// Checks the view angle of a calibration, if it has one: 10 to 150 degrees.
+std::optional<std::string> ViewAngleFault(const Calibration& calibration);
 
 // Checks that images that are declared rectified have no distortion.
 std::optional<std::string> RectifiedFault(const Calibration& calibration);

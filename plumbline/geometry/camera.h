@@ -49,7 +49,7 @@ constexpr std::array<DistortionForm, 8> kDistortionForms = {{
     {DistortionModel::kDoubleSphere, "double_sphere", {"xi", "alpha"}, 2, 2},
     {DistortionModel::kEucm, "eucm", {"alpha", "beta"}, 2, 2},
     {DistortionModel::kOmni, "omni", {"xi", "k1", "k2", "p1", "p2"}, 1, 5},
-}};
+}};  // in the order of the models
 
 // Returns the form of a model.
 constexpr const DistortionForm& FormOf(DistortionModel model) {

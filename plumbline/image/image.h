@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -59,6 +60,9 @@ struct SensorFrame {
   GrayImage left;
   std::optional<GrayImage> right;   // stereo
   std::optional<DepthImage> depth;  // RGB-D, registered to `left`
+  // Masks, of the size of the images: pixels of 0 (black) are not used, all others (white) are.
+  // Null: all pixels are used. Frames may share a mask.
+  std::shared_ptr<const GrayImage> left_mask = nullptr, right_mask = nullptr;
 };
 
 }  // namespace plumbline

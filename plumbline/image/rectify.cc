@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/image/rectify.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/parallel.h"
 #include "plumbline/base/processor.h"
+#include "plumbline/base/units.h"
 #include "plumbline/geometry/calibration.h"
 #include "plumbline/geometry/se3.h"
 #include "plumbline/image/opencv_bridge.h"
@@ -141,6 +143,9 @@ constexpr double kMinZoom = 0.5;
 constexpr double kMaxZoom = 1.3;
 // Tangent of the widest half angle that the ideal image may need (75 degrees).
 constexpr double kMaxTangent = 3.732;
+// View of the pinhole image of a wide lens, unless the calibration tells another one: beyond it the
+// border has three times the pixels that the lens has there.
+constexpr double kViewAngleDeg = 110;
 
 struct View {
   const Camera* camera = nullptr;
@@ -176,18 +181,11 @@ void ShrinkToInside(const View& view, Extent& extent) {
   }
 }
 
-RectifiedCamera ChooseCamera(const View& left, const View* right) {
-  Extent extent;
-  ShrinkToInside(left, extent);
-  double raw_focal = 0.5 * (left.camera->intrinsics().fx + left.camera->intrinsics().fy);
-  if (right != nullptr) {
-    ShrinkToInside(*right, extent);
-    const CameraIntrinsics& in = right->camera->intrinsics();
-    raw_focal = 0.5 * raw_focal + 0.25 * (in.fx + in.fy);
-  }
+// Returns the pinhole camera of the input's size.
+RectifiedCamera PinholeOfInputSize(const Extent& extent, const Camera& left, double raw_focal) {
   RectifiedCamera ideal;
-  ideal.width = left.camera->width();
-  ideal.height = left.camera->height();
+  ideal.width = left.width();
+  ideal.height = left.height();
   const double span_x = std::max(extent.x1 - extent.x0, 1e-6);
   const double span_y = std::max(extent.y1 - extent.y0, 1e-6);
   const double inside = std::max((ideal.width - 1) / span_x, (ideal.height - 1) / span_y);
@@ -197,6 +195,53 @@ RectifiedCamera ChooseCamera(const View& left, const View* right) {
   ideal.cx = 0.5 * (ideal.width - 1) - 0.5 * focal * (extent.x0 + extent.x1);
   ideal.cy = 0.5 * (ideal.height - 1) - 0.5 * focal * (extent.y0 + extent.y1);
   return ideal;
+}
+
+// Returns the pinhole camera of this focal length that shows the extent.
+RectifiedCamera PinholeOfFocal(const Extent& extent, double focal) {
+  const auto pixels = [&](double span) {
+    const double most = std::sqrt(static_cast<double>(kMostPixels));
+    return static_cast<int>(std::clamp(std::floor(focal * span) + 1, 2.0, most));
+  };
+  RectifiedCamera ideal;
+  ideal.fx = focal;
+  ideal.fy = focal;
+  ideal.width = pixels(extent.x1 - extent.x0);
+  ideal.height = pixels(extent.y1 - extent.y0);
+  ideal.cx = 0.5 * (ideal.width - 1) - 0.5 * focal * (extent.x0 + extent.x1);
+  ideal.cy = 0.5 * (ideal.height - 1) - 0.5 * focal * (extent.y0 + extent.y1);
+  return ideal;
+}
+
+// True for a lens whose pinhole image keeps the input's size.
+bool KeepsSize(const Camera& camera) {
+  const DistortionModel model = camera.intrinsics().model;
+  return model == DistortionModel::kNone || model == DistortionModel::kRadTan;
+}
+
+RectifiedCamera ChooseCamera(const View& left,
+                             const View* right,
+                             std::optional<double> view_angle_deg) {
+  const bool keeps_size = KeepsSize(*left.camera) && !view_angle_deg;
+  Extent extent;
+  if (!keeps_size) {
+    const double most =
+        std::min(kMaxTangent, math::Tan(0.5 * kDegree * view_angle_deg.value_or(kViewAngleDeg)));
+    extent = {-most, most, -most, most};
+  }
+  ShrinkToInside(left, extent);
+  if (right != nullptr) ShrinkToInside(*right, extent);
+  if (keeps_size) {
+    double raw_focal = 0.5 * (left.camera->intrinsics().fx + left.camera->intrinsics().fy);
+    if (right != nullptr) {
+      const CameraIntrinsics& in = right->camera->intrinsics();
+      raw_focal = 0.5 * raw_focal + 0.25 * (in.fx + in.fy);
+    }
+    return PinholeOfInputSize(extent, *left.camera, raw_focal);
+  }
+  double focal = left.camera->CentreFocal();
+  if (right != nullptr) focal = 0.5 * (focal + right->camera->CentreFocal());
+  return PinholeOfFocal(extent, focal);
 }
 
 RectifiedCamera IdealOf(const Camera& camera) {
@@ -310,7 +355,8 @@ Rectifier::Rectifier(const Calibration& calibration) : calibration_(calibration)
   Eigen::Quaterniond& right_turn = calibration_.right_from_left.rotation;
   if (stereo) right_turn = UnitRotation(right_turn, "calibration: right_from_left");
   Refuse(CalibrationFault(calibration_));
-  bool unchanged = left.IsIdeal();
+  const bool any_view = calibration_.view_angle_deg.has_value();
+  bool unchanged = left.IsIdeal() && !any_view;
   double baseline = with_depth ? kVirtualBaseline : 0;
   if (stereo) {
     const Rigid3 left_from_right = Inverse(calibration_.right_from_left);
@@ -321,7 +367,7 @@ Rectifier::Rectifier(const Calibration& calibration) : calibration_(calibration)
           (rectified_left_from_left_ * left_from_right.rotation).normalized();
     }
     constexpr double kNoTurn = 1e-7;
-    unchanged = SamePinhole(left, *calibration_.right) &&
+    unchanged = !any_view && SamePinhole(left, *calibration_.right) &&
                 LogSo3(rectified_left_from_left_).norm() < kNoTurn &&
                 LogSo3(rectified_right_from_right_).norm() < kNoTurn;
   }
@@ -341,7 +387,7 @@ Rectifier::Rectifier(const Calibration& calibration) : calibration_(calibration)
              SizeText(left.width(), left.height()));
     }
     const View right_view{stereo ? &*calibration_.right : nullptr, rectified_right_from_right_};
-    camera_ = ChooseCamera(left_view, stereo ? &right_view : nullptr);
+    camera_ = ChooseCamera(left_view, stereo ? &right_view : nullptr, calibration_.view_angle_deg);
     FloatMaps maps = ComputeMaps(camera_, left_view);
     left_maps_ = std::make_unique<Maps>(maps, left, with_depth);
     left_mask_ = std::move(maps.mask);
@@ -354,6 +400,28 @@ Rectifier::Rectifier(const Calibration& calibration) : calibration_(calibration)
   camera_.baseline = baseline;
 }
 
+namespace {
+
+// Returns the mask of a frame as the ideal camera sees it. Pixels beside one that is not used are
+// not used either.
+GrayImage RectifiedMask(const GrayImage& raw, const BilinearMap* map, const GrayImage& valid) {
+  GrayImage used(raw.width(), raw.height());
+  std::transform(raw.data(), raw.data() + raw.width() * raw.height(), used.data(), [](auto level) {
+    return static_cast<std::uint8_t>(level != 0 ? 255 : 0);
+  });
+  if (map != nullptr) used = map->Apply(used);
+  std::transform(used.data(),
+                 used.data() + used.width() * used.height(),
+                 valid.data(),
+                 used.data(),
+                 [](auto of_mask, auto of_lens) {
+                   return static_cast<std::uint8_t>(of_mask == 255 && of_lens != 0 ? 255 : 0);
+                 });
+  return used;
+}
+
+}  // namespace
+
 RectifiedFrame Rectifier::Apply(SensorFrame frame, HelperThread* helper) const {
   RectifiedFrame result;
   result.stamp_ns = frame.stamp_ns;
@@ -365,6 +433,16 @@ RectifiedFrame Rectifier::Apply(SensorFrame frame, HelperThread* helper) const {
   if (frame.depth && calibration_.depth_factor) {
     CheckSize(*frame.depth, calibration_.left, "depth");
     result.depth.emplace();
+  }
+  if (frame.left_mask) {
+    CheckSize(*frame.left_mask, calibration_.left, "left mask");
+    const BilinearMap* map = left_maps_ ? &left_maps_->linear : nullptr;
+    result.left_mask = RectifiedMask(*frame.left_mask, map, left_mask_);
+  }
+  if (frame.right_mask && calibration_.right) {
+    CheckSize(*frame.right_mask, *calibration_.right, "right mask");
+    const BilinearMap* map = right_maps_ ? &right_maps_->linear : nullptr;
+    result.right_mask = RectifiedMask(*frame.right_mask, map, right_mask_);
   }
   const bool left_alone = !result.right && !result.depth;
   ParallelFor(left_alone ? 1 : 2, helper, [&](int image) {
@@ -395,6 +473,42 @@ std::optional<Eigen::Vector2d> RectifyPixel(const View& view,
 
 }  // namespace
 
+Rectifier::Coverage Rectifier::LeftCoverage() const {
+  constexpr double kSteps = 64;
+  const Camera& left = calibration_.left;
+  const auto degrees = [](double focal, double from, double to) {
+    return (math::Atan(to / focal) - math::Atan(from / focal)) / kDegree;
+  };
+  Coverage coverage;
+  coverage.across_deg = degrees(camera_.fx, -camera_.cx, camera_.width - 1 - camera_.cx);
+  coverage.down_deg = degrees(camera_.fy, -camera_.cy, camera_.height - 1 - camera_.cy);
+  coverage.resolution = camera_.fx / left.CentreFocal();
+  double widest = 0, inside = 0, all = 0;
+  for (double y = 0; y <= kSteps; ++y) {
+    for (double x = 0; x <= kSteps; ++x) {
+      const Eigen::Vector2d px((left.width() - 1) * x / kSteps, (left.height() - 1) * y / kSteps);
+      const std::optional<Eigen::Vector3d> ray = left.Ray(px);
+      if (ray) widest = std::max(widest, math::Atan2(ray->head<2>().norm(), ray->z()));
+      const std::optional<Eigen::Vector2d> seen = RectifyLeft(px);
+      inside += seen && camera_.Contains(*seen) ? 1 : 0;
+      ++all;
+    }
+  }
+  const double right = camera_.width - 1, bottom = camera_.height - 1;
+  const Eigen::Vector2d corners[] = {{0, 0}, {right, 0}, {right, bottom}, {0, bottom}, {0, 0}};
+  const Eigen::Quaterniond left_from_rectified = rectified_left_from_left_.conjugate();
+  for (int side = 0; side < 4; ++side) {
+    for (double share = 0; share < 1; share += 1 / kSteps) {
+      const Eigen::Vector2d px = corners[side] + share * (corners[side + 1] - corners[side]);
+      const auto raw = left.Project(left_from_rectified * camera_.Unproject(px));
+      if (raw) coverage.outline.push_back(*raw);
+    }
+  }
+  coverage.lens_deg = 2 * widest / kDegree;
+  coverage.used = inside / all;
+  return coverage;
+}
+
 std::optional<Eigen::Vector2d> Rectifier::RectifyLeft(const Eigen::Vector2d& raw_px) const {
   return RectifyPixel({&calibration_.left, rectified_left_from_left_}, camera_, raw_px);
 }
@@ -402,6 +516,15 @@ std::optional<Eigen::Vector2d> Rectifier::RectifyLeft(const Eigen::Vector2d& raw
 std::optional<Eigen::Vector2d> Rectifier::RectifyRight(const Eigen::Vector2d& raw_px) const {
   if (!calibration_.right) return std::nullopt;
   return RectifyPixel({&*calibration_.right, rectified_right_from_right_}, camera_, raw_px);
+}
+
+std::string ViewText(const Rectifier& rectifier) {
+  const Rectifier::Coverage coverage = rectifier.LeftCoverage();
+  const auto whole = [](double value) { return std::to_string(std::lround(value)); };
+  return whole(coverage.across_deg) + " x " + whole(coverage.down_deg) + " of " +
+         whole(coverage.lens_deg) + " degrees, " + whole(100 * coverage.used) +
+         " % of the image, as " + SizeText(rectifier.camera().width, rectifier.camera().height) +
+         " pixels of " + whole(100 * coverage.resolution) + " % of the resolution in the middle";
 }
 
 }  // namespace plumbline

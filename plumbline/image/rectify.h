@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -45,16 +46,24 @@ struct RectifiedFrame {
   GrayImage left;
   std::optional<GrayImage> right;
   std::optional<DepthImage> depth;
+  // Rectified masks of the frame: 255 for pixels that are interpolated from real pixels that are
+  // used alone, otherwise 0. Empty if the frame has no mask: then Rectifier::left_mask() holds.
+  GrayImage left_mask, right_mask;
 };
 
 // Rectifies raw images to those of an ideal pinhole camera, and stereo pairs to pairs with
 // corresponding points in the same row.
 //
 // Stereo: both images are rotated so that x runs along the baseline and z along the mean of the two
-// optical axes. Mono, RGB-D: only the distortion is removed. The ideal camera has the input's size
-// and square pixels. Its focal length is the smallest at which (nearly) every pixel of both images
-// comes from a real pixel, kept within 0.5 to 1.3 of the raw one. Images that need no change are
-// passed through.
+// optical axes. Mono, RGB-D: only the distortion is removed. The ideal camera has square pixels.
+//
+// Of cameras without distortion or with kRadTan it has the input's size, and as focal length the
+// smallest at which (nearly) every pixel of both images comes from a real pixel, kept within 0.5 to
+// 1.3 of the raw one. Of the other lenses, and of all with Calibration::view_angle_deg, its focal
+// length is that of the middle of the lens (Camera::CentreFocal), so that no resolution is lost
+// there; its image reaches as far as every pixel comes from a real one, but not beyond the view
+// angle (110 degrees by default), across and down, and so may be larger or smaller than the input.
+// Images that need no change are passed through.
 class Rectifier {
  public:
   // Throws InputError if the two cameras of a pair differ in size, the second one is not to the
@@ -82,6 +91,18 @@ class Rectifier {
   const GrayImage& left_mask() const { return left_mask_; }
   const GrayImage& right_mask() const { return right_mask_; }  // empty without a right camera
 
+  // What the left pinhole image shows of the left camera.
+  struct Coverage {
+    double across_deg = 0, down_deg = 0;   // view of the pinhole image
+    double lens_deg = 0;                   // widest view of the lens in the image, over its centre
+    double used = 0;                       // share of the raw pixels that are in the pinhole image
+    double resolution = 0;                 // focal length relative to the middle of the lens
+    std::vector<Eigen::Vector2d> outline;  // of the pinhole image, raw pixels, around it once
+  };
+  Coverage LeftCoverage() const;
+  // Returns true if images pass unchanged.
+  bool PassesUnchanged() const { return left_maps_ == nullptr; }
+
   // Returns the rectified position of a raw pixel, without rounding. Returns nullopt beyond the
   // domain of the camera model or behind the rectified image plane.
   std::optional<Eigen::Vector2d> RectifyLeft(const Eigen::Vector2d& raw_px) const;
@@ -99,5 +120,9 @@ class Rectifier {
   std::unique_ptr<Maps> left_maps_;
   std::unique_ptr<Maps> right_maps_;
 };
+
+// Returns what is used of a lens, for users: "110 x 110 of 195 degrees, 62 % of the image, as
+// 546x546 pixels of 100 % of the resolution in the middle".
+std::string ViewText(const Rectifier& rectifier);
 
 }  // namespace plumbline

@@ -33,13 +33,20 @@ FrontEnd::FrontEnd(const Calibration& calibration, const FeatureOptions& feature
       left_valid_(RegionOf(rectifier_.left_mask())),
       right_valid_(RegionOf(rectifier_.right_mask())) {}
 
-FeatureInput FrontEnd::InputOf(const RectifiedFrame& images) const {
+FrontEnd::FrameMasks FrontEnd::MasksOf(const RectifiedFrame& images) {
+  FrameMasks masks;
+  if (!images.left_mask.empty()) masks.left.emplace(images.left_mask);
+  if (!images.right_mask.empty()) masks.right.emplace(images.right_mask);
+  return masks;
+}
+
+FeatureInput FrontEnd::InputOf(const RectifiedFrame& images, const FrameMasks& masks) const {
   FeatureInput input;
   input.left = &images.left;
-  input.left_valid = &left_valid_;
+  input.left_valid = masks.left ? &*masks.left : &left_valid_;
   if (images.right) {
     input.right = &*images.right;
-    input.right_valid = &right_valid_;
+    input.right_valid = masks.right ? &*masks.right : &right_valid_;
   }
   if (images.depth) input.depth = &*images.depth;
   return input;
@@ -54,9 +61,10 @@ std::shared_ptr<const FrameFeatures> FrontEnd::WithRightLines(
           known.begin(), known.end(), [](const auto& right) { return right.has_value(); })) {
     return indexed;
   }
+  const FrameMasks masks = MasksOf(images);
   return plumbline::WithRightLines(indexed,
                                    FindRightLines(rectifier_.camera(),
-                                                  InputOf(images),
+                                                  InputOf(images, masks),
                                                   ReducedOptions(options_, shed),
                                                   indexed->features.lines));
 }
@@ -70,8 +78,12 @@ ExtractedFrame FrontEnd::Extract(SensorFrame frame, StageClock clock, LoadLevel 
   clock.Done("rectify");
   const RectifiedCamera& camera = rectifier_.camera();
   ImagePyramid pyramid;
-  Features features = ExtractFeatures(
-      camera, InputOf(extracted.images), ReducedOptions(options_, shed), helper_.get(), &pyramid);
+  const FrameMasks masks = MasksOf(extracted.images);
+  Features features = ExtractFeatures(camera,
+                                      InputOf(extracted.images, masks),
+                                      ReducedOptions(options_, shed),
+                                      helper_.get(),
+                                      &pyramid);
   extracted.indexed = IndexFeatures(camera, std::move(features));
   if (camera.baseline == 0) {
     extracted.left_pyramid = std::make_shared<const ImagePyramid>(std::move(pyramid));

@@ -11,6 +11,7 @@
 #include "plumbline/slam/extracted_frame.h"
 
 #include <memory>
+#include <optional>
 
 namespace plumbline {
 
@@ -23,9 +24,10 @@ class FrontEnd {
   // Throws InputError for an unusable calibration.
   FrontEnd(const Calibration& calibration, const FeatureOptions& features);
 
-  // Rectifies the images and extracts features. Throws InputError if an image is missing
-  // (CheckImages) or its size differs from the calibration. Thread-safe; the same frame gives the
-  // same features. With `shed`, fewer lines or points are extracted.
+  // Rectifies the images and extracts features, none where the masks of the frame are black. Throws
+  // InputError if an image is missing (CheckImages) or its size differs from the calibration.
+  // Thread-safe; the same frame gives the same features. With `shed`, fewer lines or points are
+  // extracted.
   ExtractedFrame Extract(SensorFrame frame,
                          StageClock clock = {},
                          LoadLevel shed = LoadLevel::kNothing) const;
@@ -43,7 +45,13 @@ class FrontEnd {
   HelperThread* helper() const { return helper_.get(); }
 
  private:
-  FeatureInput InputOf(const RectifiedFrame& images) const;
+  // The masks of a frame, where it has any.
+  struct FrameMasks {
+    std::optional<ValidRegion> left, right;
+  };
+  static FrameMasks MasksOf(const RectifiedFrame& images);
+  // The result points to both arguments.
+  FeatureInput InputOf(const RectifiedFrame& images, const FrameMasks& masks) const;
 
   FeatureOptions options_;
   std::unique_ptr<HelperThread> helper_;

@@ -156,7 +156,7 @@ def _check_callable(name: str, value: object) -> None:
 def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None = None,
         camera: str | None = None, format: str | None = None, topics: Sequence[str] = (),
         ground_truth: Path | None = None, rotate: str = "auto", max_width: int | None = None,
-        start: int = 0,
+        view_angle: float | None = None, mask: Path | Sequence[Path] | None = None, start: int = 0,
         stop: int | None = None, stride: int = 1, map: Path | Atlas | None = None,
         localize: bool = False, out: Path | None = None, seed: int | None = None,
         mode: str | None = None,
@@ -166,8 +166,8 @@ def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None =
     trajectory has the same bytes.
 
     preset: the system of a paper, "rippl" or "good-line-cutting", to which options are added. path,
-    sensor, camera, format, topics, ground_truth, rotate, max_width: as for open(), or path is a
-    Dataset. start, stop, stride: which frames. map: a file or an Atlas to go on in; localize: only
+    sensor, camera, format, topics, ground_truth, rotate, max_width, view_angle, mask: as for
+    open(), or path is a Dataset. start, stop, stride: which frames. map: a file or an Atlas to go on in; localize: only
     find the camera in it. out: a folder for the files of the run. seed: of the random numbers; mode:
     "inline", "lockstep" or "live" (slam.seed and slam.mode). on_frame: called with the FrameResult of each frame, in order;
     on_event: with a dictionary for each loop, join of maps and relocalization, as soon as it is
@@ -180,15 +180,15 @@ def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None =
     """
     needed = None if preset is None else _plumbline._preset_sensor(preset)
     if isinstance(path, Dataset):
-        if (sensor, camera, format, tuple(topics), ground_truth, rotate, max_width) != (
-                None, None, None, (), None, "auto", None):
-            raise InputError("sensor, camera, format, topics, ground_truth, rotate, max_width: expected "
-                             "none beside a Dataset, found some")
+        if (sensor, camera, format, tuple(topics), ground_truth, rotate, max_width, view_angle,
+                mask) != (None, None, None, (), None, "auto", None, None, None):
+            raise InputError("sensor, camera, format, topics, ground_truth, rotate, max_width, "
+                             "view_angle, mask: expected none beside a Dataset, found some")
         dataset = path
     else:
         dataset = _plumbline.open(path, sensor=sensor or needed, camera=camera, format=format,
                                   topics=topics, ground_truth=ground_truth, rotate=rotate,
-                                  max_width=max_width)
+                                  max_width=max_width, view_angle=view_angle, mask=mask)
     _check_callable("on_frame", on_frame)
     _check_callable("on_event", on_event)
     if needed is not None and dataset.sensor != needed:

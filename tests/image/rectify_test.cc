@@ -12,8 +12,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -236,7 +238,8 @@ TEST(Rectifier, UndistortsMonoWithoutTurning) {
       1e-8);
 }
 
-TEST(Rectifier, BoundsTheFocalLengthOfAFisheye) {
+// TUM-VI's left camera, of 195 degrees.
+Calibration FisheyeCalibration() {
   Calibration calibration;
   calibration.left = Camera({.fx = 190.98,
                              .fy = 190.97,
@@ -246,14 +249,102 @@ TEST(Rectifier, BoundsTheFocalLengthOfAFisheye) {
                              .height = 512,
                              .model = DistortionModel::kEquidistant,
                              .distortion = {0.00348, 0.000715, -0.00205, 0.0002}});
+  return calibration;
+}
+
+TEST(Rectifier, AWideLensKeepsTheResolutionOfItsMiddle) {
+  Calibration calibration = FisheyeCalibration();
   const Rectifier rectifier(calibration);
-  EXPECT_NEAR(rectifier.camera().fx, 95.4875, 1e-9);
-  EXPECT_LT(InvalidFraction(rectifier.left_mask()), 0.02);
-  const Eigen::Vector3d wide(2, 1, 1);
-  EXPECT_LT(
-      (*rectifier.RectifyLeft(*calibration.left.Project(wide)) - rectifier.camera().Project(wide))
-          .norm(),
-      1e-8);
+  const RectifiedCamera& view = rectifier.camera();
+  EXPECT_NEAR(view.fx, 190.975, 1e-9);
+  EXPECT_NEAR(view.width, 2 * 190.975 * std::tan(55 * M_PI / 180), 2);
+  EXPECT_EQ(view.width, view.height);
+  EXPECT_EQ(InvalidFraction(rectifier.left_mask()), 0);
+  const Eigen::Vector3d wide(1.4, -1.2, 1);
+  EXPECT_LT((*rectifier.RectifyLeft(*calibration.left.Project(wide)) - view.Project(wide)).norm(),
+            1e-8);
+  const Rectifier::Coverage coverage = rectifier.LeftCoverage();
+  EXPECT_NEAR(coverage.across_deg, 110, 0.5);
+  EXPECT_NEAR(coverage.down_deg, 110, 0.5);
+  EXPECT_NEAR(coverage.resolution, 1, 1e-12);
+  EXPECT_NEAR(coverage.used, 0.6, 0.1);
+  EXPECT_GT(coverage.lens_deg, 190);
+  calibration.view_angle_deg = 90;
+  EXPECT_NEAR(Rectifier(calibration).camera().width, 2 * 190.975, 2);
+  EXPECT_NEAR(Rectifier(calibration).camera().fx, 190.975, 1e-9);
+  calibration.view_angle_deg = 170;
+  EXPECT_THROW(Rectifier{calibration}, InputError);
+}
+
+TEST(Rectifier, EveryLensIsCutOutWhereItHasPixels) {
+  const std::vector<CameraIntrinsics> lenses = {
+      {.model = DistortionModel::kRational,
+       .distortion = {8.5, 4.2, 0.0002, -0.0001, 0.21, 8.85, 7.06, 1.1}},
+      {.model = DistortionModel::kFov, .distortion = {0.93}},
+      {.model = DistortionModel::kDoubleSphere, .distortion = {-0.18, 0.59}},
+      {.model = DistortionModel::kEucm, .distortion = {0.63, 1.04}},
+      {.model = DistortionModel::kOmni, .distortion = {0.9, -0.2, 0.05, 0.001, -0.0005}}};
+  for (CameraIntrinsics in : lenses) {
+    in.fx = in.fy = 320;
+    in.cx = 318;
+    in.cy = 243;
+    in.width = 640;
+    in.height = 480;
+    Calibration calibration;
+    calibration.left = Camera(in);
+    const Rectifier rectifier(calibration);
+    const RectifiedCamera& view = rectifier.camera();
+    EXPECT_NEAR(view.fx, calibration.left.CentreFocal(), 1e-9) << FormOf(in.model).name;
+    EXPECT_LT(InvalidFraction(rectifier.left_mask()), 0.02) << FormOf(in.model).name;
+    EXPECT_GT(rectifier.LeftCoverage().used, 0.75) << FormOf(in.model).name;
+    for (const Eigen::Vector3d& p : {Eigen::Vector3d(0.5, -0.4, 1), {-0.3, 0.2, 1}, {0, 0, 2}}) {
+      const auto seen = rectifier.RectifyLeft(*calibration.left.Project(p));
+      ASSERT_TRUE(seen);
+      EXPECT_LT((*seen - view.Project(p)).norm(), 1e-8) << FormOf(in.model).name;
+    }
+  }
+}
+
+TEST(Rectifier, AViewAngleCutsOtherImagesToo) {
+  Calibration calibration = KittiCalibration();
+  const RectifiedCamera whole = Rectifier(calibration).camera();
+  calibration.view_angle_deg = 10;
+  const Rectifier cut(calibration);
+  // The image has 10 degrees across and 3 down.
+  EXPECT_NEAR(cut.camera().fx, whole.fx, 1e-9);
+  EXPECT_NEAR(cut.camera().baseline, whole.baseline, 1e-12);
+}
+
+TEST(Rectifier, MasksGoTheWayOfTheImages) {
+  const Calibration calibration = EurocCalibration();
+  const Rectifier rectifier(calibration);
+  SensorFrame raw;
+  raw.left = GrayImage(752, 480, 90);
+  raw.right = raw.left;
+  GrayImage mask(752, 480, 1);  // all but 0 is used
+  for (int v = 100; v < 220; ++v) {
+    for (int u = 300; u < 420; ++u) mask.at(u, v) = 0;
+  }
+  raw.left_mask = std::make_shared<const GrayImage>(mask);
+  const RectifiedFrame frame = rectifier.Apply(raw);
+  EXPECT_TRUE(frame.right_mask.empty());
+  const Eigen::Quaterniond left_from_rectified = rectifier.rectified_left_from_left().conjugate();
+  int black = 0;
+  for (int v = 0; v < rectifier.camera().height; v += 3) {
+    for (int u = 0; u < rectifier.camera().width; u += 3) {
+      const auto px =
+          *calibration.left.Project(left_from_rectified * rectifier.camera().Unproject({u, v}));
+      const double off = std::max(std::abs(px.x() - 359.5) - 60, std::abs(px.y() - 159.5) - 60);
+      EXPECT_FALSE(off < -1 && frame.left_mask.at(u, v) != 0) << u << " " << v;
+      if (off > 2 && rectifier.left_mask().at(u, v) != 0) {
+        EXPECT_EQ(frame.left_mask.at(u, v), 255) << u << " " << v;
+      }
+      black += frame.left_mask.at(u, v) == 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(black, 1000);
+  raw.left_mask = std::make_shared<const GrayImage>(751, 480);
+  EXPECT_THROW((void)rectifier.Apply(raw), InputError);
 }
 
 // The second camera looks 40 degrees to the side: no ideal image has only real pixels.

@@ -435,7 +435,8 @@ TEST(FormatCamera, WritesEveryModel) {
     CameraIntrinsics in{.fx = 300, .fy = 301, .cx = 320, .cy = 240, .width = 640, .height = 480};
     in.model = form.model;
     // Numbers that are valid for every model.
-    for (std::size_t i = 0; i < form.most; ++i) in.distortion[i] = 0.1 + 0.01 * static_cast<double>(i);
+    for (std::size_t i = 0; i < form.most; ++i)
+      in.distortion[i] = 0.1 + 0.01 * static_cast<double>(i);
     Calibration calibration;
     calibration.left = Camera(in);
     const std::string text = FormatCamera(calibration);

@@ -66,7 +66,7 @@ Calibration PairOfCameras() {
 // from the border of the image.
 TEST(FramePreparation, ReducesTheCamerasWithTheImages) {
   const Calibration delivered = PairOfCameras();
-  const FramePreparation preparation(delivered, {}, 320);
+  const FramePreparation preparation(delivered, {}, {.max_width = 320});
   const Calibration& used = preparation.calibration();
   EXPECT_EQ(used.left.height(), 201);
   const Eigen::Vector3d point(0.3, -0.2, 1.2);
@@ -76,8 +76,8 @@ TEST(FramePreparation, ReducesTheCamerasWithTheImages) {
   EXPECT_NEAR(after.y() + 0.5, (before.y() + 0.5) * 201 / 401, 1e-9);
   EXPECT_EQ(*used.right, used.left);
   EXPECT_EQ(used.right_from_left.translation, delivered.right_from_left.translation);
-  EXPECT_TRUE(FramePreparation(delivered, {}, 640).IsIdentity());
-  EXPECT_TRUE(FramePreparation(delivered, {}, std::nullopt).IsIdentity());
+  EXPECT_TRUE(FramePreparation(delivered, {}, {.max_width = 640}).IsIdentity());
+  EXPECT_TRUE(FramePreparation(delivered, {}, {}).IsIdentity());
   SensorFrame frame;
   frame.left = GrayImage(640, 401, 7);
   frame.right = GrayImage(640, 401, 9);
@@ -88,7 +88,7 @@ TEST(FramePreparation, ReducesTheCamerasWithTheImages) {
 }
 
 TEST(FramePreparation, TurnsNoPair) {
-  EXPECT_THAT(MessageOf([] { FramePreparation(PairOfCameras(), ClockwiseTurn(90), std::nullopt); }),
+  EXPECT_THAT(MessageOf([] { FramePreparation(PairOfCameras(), ClockwiseTurn(90), {}); }),
               HasSubstr("found a stereo pair, whose cameras would not lie side by side"));
   const ScratchFolder folder;
   WriteEuroc(folder);
@@ -124,6 +124,64 @@ TEST(PreparedDataset, TurnsDepthAndGroundTruthWithTheImages) {
   EXPECT_EQ(reduced->Read(0)->depth->width(), 4);
   EXPECT_EQ(reduced->Read(0)->left.height(), 3);
   EXPECT_EQ(reduced->Read(0)->stamp_ns, stored->stamp_ns(0));
+}
+
+std::string MaskOf(int width, int height, int black_columns) {
+  cv::Mat mask(height, width, CV_8UC1, cv::Scalar(255));
+  mask.colRange(0, black_columns).setTo(0);
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".png", mask, bytes);
+  return {bytes.begin(), bytes.end()};
+}
+
+TEST(PreparedDataset, MasksAreTurnedAndReducedWithTheImages) {
+  const ScratchFolder folder;
+  WriteTumFolder(folder);
+  const std::string mask = folder.Write("mask.png", MaskOf(8, 6, 3)).string();
+  EXPECT_EQ(OpenDataset(folder.path())->Read(0)->left_mask, nullptr);
+  const auto frame = OpenDataset(folder.path(), {.masks = {mask}})->Read(0);
+  ASSERT_TRUE(frame->left_mask);
+  EXPECT_EQ(frame->left_mask->at(2, 1), 0);
+  EXPECT_EQ(frame->left_mask->at(3, 1), 255);
+  // The left side comes to the top.
+  const auto turned = OpenDataset(folder.path(), {.rotate = Rotation::k90, .masks = {mask}});
+  EXPECT_EQ(turned->Read(0)->left_mask->width(), 6);
+  EXPECT_EQ(turned->Read(0)->left_mask->at(1, 2), 0);
+  EXPECT_EQ(turned->Read(0)->left_mask->at(1, 3), 255);
+  // A pixel of which a part is black is.
+  const auto reduced = OpenDataset(folder.path(), {.max_width = 4, .masks = {mask}});
+  EXPECT_EQ(reduced->Read(0)->left_mask->at(1, 1), 0);
+  EXPECT_EQ(reduced->Read(0)->left_mask->at(2, 1), 255);
+}
+
+TEST(PreparedDataset, FramesMayHaveMasksOfTheirOwn) {
+  const ScratchFolder folder;
+  WriteTumFolder(folder);
+  folder.Write("mask0/1.png", MaskOf(8, 6, 5));
+  const std::string mask = folder.Write("mask.png", MaskOf(8, 6, 3)).string();
+  const auto own = OpenDataset(folder.path());
+  EXPECT_EQ(own->Read(0)->left_mask->at(4, 0), 0);
+  EXPECT_EQ(own->Read(0)->left_mask->at(5, 0), 255);
+  EXPECT_THAT(own->info().notes, testing::Contains(HasSubstr("images have a mask in ")));
+  const auto both = OpenDataset(folder.path(), {.masks = {mask}});
+  EXPECT_EQ(both->Read(0)->left_mask->at(4, 0), 0);
+  folder.Write("mask0/1.png", MaskOf(8, 6, 1));
+  EXPECT_EQ(OpenDataset(folder.path(), {.masks = {mask}})->Read(0)->left_mask->at(2, 0), 0);
+}
+
+TEST(PreparedDataset, SaysWhatIsWrongWithAMask) {
+  const ScratchFolder folder;
+  WriteTumFolder(folder);
+  const auto message = [&](const std::vector<std::string>& masks) {
+    return MessageOf([&] { OpenDataset(folder.path(), {.masks = masks}); });
+  };
+  EXPECT_THAT(message({folder.Write("wide.png", MaskOf(9, 6, 1)).string()}),
+              HasSubstr("wide.png: expected a mask of 8x6 pixels as the images, found 9x6"));
+  EXPECT_THAT(message({(folder / "none.png").string()}), HasSubstr("none.png: no such file"));
+  EXPECT_THAT(message({folder.Write("text.png", "text").string()}), HasSubstr("text.png: "));
+  const std::string mask = folder.Write("mask.png", MaskOf(8, 6, 3)).string();
+  EXPECT_THAT(message({mask, mask}),
+              HasSubstr("expected at most 1 mask, one for each camera, found 2"));
 }
 
 // A JPEG file whose EXIF data ask for an orientation.

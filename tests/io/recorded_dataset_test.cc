@@ -46,6 +46,26 @@ TEST(Recordings, ReadsAPairOfABag) {
   EXPECT_EQ(OpenDataset(folder / "x.bag", {.sensor = SensorKind::kMono})->size(), 3U);
 }
 
+// A topic of masks is none of images, and gives frames those of their moment.
+TEST(Recordings, TakeMasksByTopic) {
+  const ScratchFolder folder;
+  BagWriter bag;
+  AddCamera(bag, "/c/camera_info", {});
+  for (const int i : {1, 2, 3}) AddImage(bag, "/c/image", Gray(i * kSecond, 'a'));
+  AddImage(bag, "/people/mask", Gray(kSecond + 1000, '\xFF'));
+  AddImage(bag, "/people/mask", Gray(3 * kSecond, '\0'));
+  const std::filesystem::path file = Write(folder, bag);
+  EXPECT_NE(MessageOf([&] { OpenDataset(file); }), "no error") << "two topics of images";
+  const auto dataset = OpenDataset(file, {.masks = {"/people/mask"}});
+  EXPECT_EQ(dataset->size(), 3U);
+  EXPECT_EQ(dataset->Read(0)->left_mask->at(3, 3), 255);
+  EXPECT_EQ(dataset->Read(1)->left_mask, nullptr);
+  EXPECT_EQ(dataset->Read(2)->left_mask->at(3, 3), 0);
+  EXPECT_THAT(dataset->info().notes, Contains("2 of 3 images have a mask of /people/mask"));
+  EXPECT_THAT(MessageOf([&] { OpenDataset(file, {.masks = {"/nobody"}}); }),
+              HasSubstr("expected an image file or a topic as a mask, found '/nobody'; topics: "));
+}
+
 TEST(Recordings, ReadsMcapOfAllDialects) {
   const std::map<Dialect, std::vector<std::string>> names = {
       {Dialect::kRos1,

@@ -465,7 +465,7 @@ RUNS = {
     "events told to a text": (lambda d, f, t: plumbline.run(d, on_event="print"),
                               "on_event: expected a function, found str"),
     "sensor of a Dataset": (lambda d, f, t: plumbline.run(d, sensor="mono"),
-                            "sensor, camera, format, topics, ground_truth, rotate, max_width: expected "),
+                            "sensor, camera, format, topics, ground_truth, rotate, max_width, view_angle, mask: expected "),
     "ground truth that is not there": (
         lambda d, f, t: plumbline.open(d.path, ground_truth=t / "none.txt"), "none.txt: no such file"),
     "topics of a folder": (lambda d, f, t: plumbline.open(d.path, topics=["/cam0"]),

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <future>
+#include <memory>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -68,6 +69,46 @@ TEST(FrontEnd, KeepsThePyramidOfASingleCamera) {
       EXPECT_TRUE(std::equal(row, row + level.image.width(), anew[i].image.row(y))) << y;
     }
   }
+}
+
+// The mask covers the right half; its edge crosses the picture and is none of the scene.
+TEST(FrontEnd, FindsNothingUnderAMask) {
+  const FrontEnd front_end(MovingPoster::MakeCalibration(), {});
+  SensorFrame frame = MovingPoster().Frame(2);
+  const Features whole = front_end.Extract(frame).indexed->features;
+  constexpr int kEdge = MovingPoster::kWidth / 2;
+  GrayImage mask(MovingPoster::kWidth, MovingPoster::kHeight, 255);
+  for (int y = 0; y < mask.height(); ++y) {
+    for (int x = kEdge; x < mask.width(); ++x) {
+      mask.at(x, y) = 0;
+      frame.left.at(x, y) = 0;
+      frame.right->at(x, y) = 0;
+    }
+  }
+  const auto in_half = [](const Features& features, int side) {
+    return std::count_if(features.points.begin(), features.points.end(), [&](const auto& point) {
+      return (point.px.x() < kEdge ? 0 : 1) == side;
+    });
+  };
+  EXPECT_GT(in_half(whole, 1), 50);
+  frame.left_mask = frame.right_mask = std::make_shared<const GrayImage>(mask);
+  const ExtractedFrame extracted = front_end.Extract(frame);
+  const Features& masked = extracted.indexed->features;
+  EXPECT_GT(in_half(masked, 0), 50);
+  for (const PointFeature& point : masked.points) EXPECT_LT(point.px.x(), kEdge - 5);
+  const auto on_edge = [](const Features& features) {
+    return std::count_if(features.lines.begin(), features.lines.end(), [](const auto& line) {
+      return std::max(line.segment.start.x(), line.segment.end.x()) > kEdge - 2;
+    });
+  };
+  EXPECT_EQ(on_edge(masked), 0);
+  const auto right = front_end.WithRightLines(extracted.images, extracted.shed, extracted.indexed);
+  for (const auto& line : right->features.line_right) {
+    EXPECT_FALSE(line && line->segment.start.x() > kEdge);
+  }
+  // Without the mask its edge is a line.
+  frame.left_mask = frame.right_mask = nullptr;
+  EXPECT_GT(on_edge(front_end.Extract(frame).indexed->features), 0);
 }
 
 TEST(FrontEnd, GivesTheSameFeaturesInEveryThread) {

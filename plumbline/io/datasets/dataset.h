@@ -144,6 +144,12 @@ struct DatasetOptions {
   // Wider images, and their calibration, are reduced to this width. nullopt: images above 2
   // megapixels are reduced to that size.
   std::optional<int> max_width = std::nullopt;
+  // Calibration::view_angle_deg of the data set.
+  std::optional<double> view_angle_deg = std::nullopt;
+  // Image files of masks, of the left and of the right camera, for all frames: black is not used.
+  // In a recording also topics of images. They are as the images are stored, and go with masks that
+  // the data have for each frame.
+  std::vector<std::string> masks = {};
 };
 
 }  // namespace plumbline

@@ -46,6 +46,23 @@ std::string NoteOf(const ImageTurn& turn, bool has_calibration) {
                      calibration);
 }
 
+std::uint8_t WhiteUnlessBlack(std::uint8_t level) { return level != 0 ? 255 : 0; }
+
+// Reads a mask of the images of a camera. Throws InputError if it cannot be read, or has another
+// size.
+GrayImage ReadMask(const std::string& path, const Camera& camera) {
+  const ImageSize size = SizeOfImages(camera);
+  const Expected<GrayImage, ImageFailure> mask = ReadGrayImage(path, size);
+  if (mask) return *mask;
+  if (!mask.error().other_size) throw InputError(path + ": " + mask.error().why);
+  throw InputError(fmt::format("{}: expected a mask of {}x{} pixels as the images, found {}x{}",
+                               path,
+                               size.width,
+                               size.height,
+                               mask.error().other_size->width,
+                               mask.error().other_size->height));
+}
+
 class PreparedDataset : public Dataset {
  public:
   PreparedDataset(std::unique_ptr<Dataset> recorded,
@@ -116,16 +133,31 @@ ImageSize ReducedSize(ImageSize size, std::optional<int> max_width) {
 
 FramePreparation::FramePreparation(const Calibration& calibration,
                                    const Orientation& turn,
-                                   std::optional<int> max_width)
+                                   const PreparationOptions& options)
     : turn_(turn),
       turned_(TurnedSize(SizeOfImages(calibration.left), turn)),
-      reduced_(ReducedSize(turned_, max_width)) {
+      reduced_(ReducedSize(turned_, options.max_width)),
+      view_angle_(options.view_angle_deg.has_value()) {
   if (calibration.right && !turn.IsIdentity()) {
     throw InputError(
         "expected one camera whose images can be turned, found a stereo pair, whose cameras would "
         "not lie side by side any more");
   }
+  const std::size_t cameras = calibration.right ? 2 : 1;
+  if (options.masks.size() > cameras) {
+    throw InputError(fmt::format("expected at most {} mask{}, one for each camera, found {}",
+                                 cameras,
+                                 cameras == 1 ? "" : "s",
+                                 options.masks.size()));
+  }
+  const auto mask = [&](std::size_t camera, const Camera& of) {
+    const bool given = options.masks.size() > camera && !options.masks[camera].empty();
+    return given ? PreparedMask(ReadMask(options.masks[camera], of)) : nullptr;
+  };
+  left_mask_ = mask(0, calibration.left);
+  if (calibration.right) right_mask_ = mask(1, *calibration.right);
   calibration_ = Turned(calibration, turn);
+  if (options.view_angle_deg) calibration_.view_angle_deg = options.view_angle_deg;
   if (reduced_ == turned_) return;
   calibration_.left = Reduced(calibration_.left, reduced_);
   if (calibration_.right) calibration_.right = Reduced(*calibration_.right, reduced_);
@@ -156,7 +188,36 @@ SensorFrame FramePreparation::Apply(SensorFrame frame) const {
   frame.left = Apply(std::move(frame.left));
   if (frame.right) frame.right = Apply(*std::move(frame.right));
   if (frame.depth) frame.depth = Apply(*std::move(frame.depth));
+  frame.left_mask = Joined(frame.left_mask, left_mask_);
+  frame.right_mask = Joined(frame.right_mask, right_mask_);
   return frame;
+}
+
+FramePreparation::Mask FramePreparation::PreparedMask(const GrayImage& mask) const {
+  GrayImage used(mask.width(), mask.height());
+  std::transform(
+      mask.data(), mask.data() + mask.width() * mask.height(), used.data(), WhiteUnlessBlack);
+  used = Apply(std::move(used));
+  std::transform(
+      used.data(), used.data() + used.width() * used.height(), used.data(), [](std::uint8_t level) {
+        return level == 255 ? level : std::uint8_t{0};
+      });
+  return std::make_shared<const GrayImage>(std::move(used));
+}
+
+FramePreparation::Mask FramePreparation::Joined(const Mask& of_frame, const Mask& of_all) const {
+  if (!of_frame) return of_all;
+  const Mask prepared = PreparedMask(*of_frame);
+  const bool same_size =
+      of_all && of_all->width() == prepared->width() && of_all->height() == prepared->height();
+  if (!same_size) return prepared;
+  GrayImage both = *prepared;
+  std::transform(both.data(),
+                 both.data() + both.width() * both.height(),
+                 of_all->data(),
+                 both.data(),
+                 [](std::uint8_t a, std::uint8_t b) { return std::min(a, b); });
+  return std::make_shared<const GrayImage>(std::move(both));
 }
 
 ImageTurn ChooseTurn(Rotation rotation,
@@ -198,9 +259,9 @@ DatasetInfo Prepared(DatasetInfo info, const FramePreparation& preparation, cons
 
 std::unique_ptr<Dataset> PrepareFrames(std::unique_ptr<Dataset> recorded,
                                        const ImageTurn& turn,
-                                       std::optional<int> max_width) {
+                                       const PreparationOptions& options) {
   try {
-    FramePreparation preparation(recorded->calibration(), turn.orientation, max_width);
+    FramePreparation preparation(recorded->calibration(), turn.orientation, options);
     if (preparation.IsIdentity()) return recorded;
     return std::make_unique<PreparedDataset>(std::move(recorded), std::move(preparation), turn);
   } catch (const InputError& error) {

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace plumbline {
 
@@ -23,18 +25,34 @@ Orientation TurnOf(Rotation rotation, const Orientation& noted = {});
 // InputError for a width below 1.
 ImageSize ReducedSize(ImageSize size, std::optional<int> max_width);
 
-// Preparation of frames between reading and use: first they are rotated, then reduced. The camera
-// frame is that of the images as used.
+// What is done to frames beside their rotation.
+struct PreparationOptions {
+  std::optional<int> max_width = std::nullopt;
+  std::optional<double> view_angle_deg = std::nullopt;
+  std::vector<std::string> masks = {};  // files, as DatasetOptions::masks; empty names: none
+};
+
+// Returns those of options for a data set or a live source.
+template <class Options>
+PreparationOptions PreparationOf(const Options& options) {
+  return {options.max_width, options.view_angle_deg, options.masks};
+}
+
+// Preparation of frames between reading and use: first they are masked, then rotated, then reduced.
+// The camera frame is that of the images as used.
 class FramePreparation {
  public:
   // `calibration` is that of the images as stored. Throws InputError for the rotation of a stereo
-  // pair, since its cameras would not lie side by side.
+  // pair, since its cameras would not lie side by side, and for masks that cannot be read or have
+  // another size.
   FramePreparation(const Calibration& calibration,
                    const Orientation& turn,
-                   std::optional<int> max_width);
+                   const PreparationOptions& options);
 
   // Returns true if frames do not change.
-  bool IsIdentity() const { return turn_.IsIdentity() && reduced_ == turned_; }
+  bool IsIdentity() const {
+    return turn_.IsIdentity() && reduced_ == turned_ && !left_mask_ && !right_mask_ && !view_angle_;
+  }
   // Calibration of the frames as used.
   const Calibration& calibration() const { return calibration_; }
   // Returns a sentence about the reduction of images; nullopt if they are not reduced.
@@ -48,8 +66,16 @@ class FramePreparation {
   SensorFrame Apply(SensorFrame frame) const;
 
  private:
+  using Mask = std::shared_ptr<const GrayImage>;
+  // A mask of the images as used: of a pixel that is a mean, all of it must be used.
+  Mask PreparedMask(const GrayImage& mask) const;
+  // The mask of a frame with that of all frames, of which either may be null.
+  Mask Joined(const Mask& of_frame, const Mask& of_all) const;
+
   Orientation turn_;
   ImageSize turned_, reduced_;
+  bool view_angle_ = false;
+  Mask left_mask_, right_mask_;  // of all frames, as used
   Calibration calibration_;
 };
 
@@ -78,6 +104,6 @@ DatasetInfo Prepared(DatasetInfo info, const FramePreparation& preparation, cons
 // if that changes nothing.
 std::unique_ptr<Dataset> PrepareFrames(std::unique_ptr<Dataset> recorded,
                                        const ImageTurn& turn,
-                                       std::optional<int> max_width);
+                                       const PreparationOptions& options);
 
 }  // namespace plumbline

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <functional>
+#include <memory>
 #include <string_view>
 #include <system_error>
 #include <tuple>
@@ -50,6 +52,17 @@ class ImageDataset : public Dataset {
       if (!depth) return FailureOf(depth.error(), size);
       frame.depth = *depth;
     }
+    const auto read_mask = [&](const std::optional<fs::path>& file,
+                               ImageSize of,
+                               std::shared_ptr<const GrayImage>& mask) {
+      if (!file) return std::optional<ImageFailure>();
+      auto read = ReadGrayImage(*file, wanted(of));
+      if (!read) return std::optional(FailureOf(read.error(), of));
+      mask = std::make_shared<const GrayImage>(*std::move(read));
+      return std::optional<ImageFailure>();
+    };
+    if (auto failure = read_mask(files.left_mask, size, frame.left_mask)) return *failure;
+    if (auto failure = read_mask(files.right_mask, right_size, frame.right_mask)) return *failure;
     return frame;
   }
 
@@ -152,6 +165,36 @@ std::string NameOf(const fs::path& path) {
   return (clean.has_filename() ? clean : clean.parent_path()).filename().string();
 }
 
+// Returns the folder of masks of this name of a data set, if there is one.
+std::optional<fs::path> MaskFolder(const fs::path& dataset, const char* name) {
+  std::error_code error;
+  for (const fs::path& folder : {dataset / name, dataset / "mav0" / name}) {
+    if (fs::is_directory(folder, error)) return folder;
+  }
+  return std::nullopt;
+}
+
+// Finds the masks of the frames of one camera, and notes how many there are.
+void FindMasks(const char* name,
+               std::optional<fs::path> FrameFiles::*mask,
+               const std::function<const fs::path*(const FrameFiles&)>& image_of,
+               std::vector<FrameFiles>& files,
+               DatasetInfo& info) {
+  const std::optional<fs::path> folder = MaskFolder(info.path, name);
+  if (!folder) return;
+  std::size_t found = 0;
+  for (FrameFiles& frame : files) {
+    const fs::path* image = image_of(frame);
+    if (image == nullptr) return;
+    const fs::path file = *folder / (image->stem().string() + ".png");
+    if (!PathExists(file)) continue;
+    frame.*mask = file;
+    ++found;
+  }
+  info.notes.push_back(
+      fmt::format("{} of {} images have a mask in {}", found, files.size(), folder->string()));
+}
+
 }  // namespace
 
 bool PathExists(const fs::path& path) {
@@ -251,6 +294,14 @@ std::unique_ptr<Dataset> MakeImageDataset(DatasetInfo info, std::vector<FrameFil
       files.begin(), files.end(), [](const FrameFiles& frame) { return PathExists(frame.left); });
   if (first != files.end()) NoteBits(BrightestOf16Bits(first->left), info);
   NoteRate(info);
+  FindMasks(
+      "mask0", &FrameFiles::left_mask, [](const FrameFiles& f) { return &f.left; }, files, info);
+  FindMasks(
+      "mask1",
+      &FrameFiles::right_mask,
+      [](const FrameFiles& f) { return f.right ? &*f.right : nullptr; },
+      files,
+      info);
   auto dataset = std::make_unique<ImageDataset>(std::move(info), std::move(files));
   CheckFirstFrame(*dataset);
   return dataset;

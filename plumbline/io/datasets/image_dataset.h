@@ -39,11 +39,14 @@ struct FrameFiles {
   std::filesystem::path left;
   std::optional<std::filesystem::path> right;
   std::optional<std::filesystem::path> depth;
+  std::optional<std::filesystem::path> left_mask = std::nullopt, right_mask = std::nullopt;
 };
 
 // Makes a data set of image files. files[i] belongs to info.stamps_ns[i]. Listed but missing images
-// become a note. Throws InputError if there are no frames, or if no left, no right or no depth
-// image exists or can be read at all, or as CheckFirstFrame.
+// become a note. Masks are found by the names of the images: mask0/NAME.png of left/NAME.*, and
+// mask1 for the right camera, in the folder of the data set (or mav0 in it); a note says how many.
+// Throws InputError if there are no frames, or if no left, no right or no depth image exists or can
+// be read at all, or as CheckFirstFrame.
 std::unique_ptr<Dataset> MakeImageDataset(DatasetInfo info, std::vector<FrameFiles> files);
 
 // Returns the failure of one image; if its size differs from `wanted`, that of the calibration, the

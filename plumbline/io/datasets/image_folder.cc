@@ -90,7 +90,7 @@ std::unique_ptr<Dataset> OpenImageFolder(const fs::path& path, const DatasetOpti
   if (files.empty()) throw InputError(path.string() + ": expected frames, found none");
   const ImageTurn turn = TurnOfImages(files, options, info);
   return PrepareFrames(
-      MakeImageDataset(std::move(info), std::move(files)), turn, options.max_width);
+      MakeImageDataset(std::move(info), std::move(files)), turn, PreparationOf(options));
 }
 
 }  // namespace plumbline

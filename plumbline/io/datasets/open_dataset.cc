@@ -122,7 +122,13 @@ std::unique_ptr<Dataset> OpenDataset(const fs::path& path, const DatasetOptions&
   auto dataset = OpenByFormat(path, options);
   const DatasetFormat format = dataset->info().format;
   if (format == DatasetFormat::kVideo || format == DatasetFormat::kImages) return dataset;
-  return PrepareFrames(std::move(dataset), {TurnOf(options.rotate)}, options.max_width);
+  PreparationOptions preparation = PreparationOf(options);
+  std::error_code error;
+  for (std::string& mask : preparation.masks) {
+    // The masks of a recording that are no files are topics, which it gives its frames itself.
+    if (IsRecording(format) && !fs::is_regular_file(mask, error)) mask.clear();
+  }
+  return PrepareFrames(std::move(dataset), {TurnOf(options.rotate)}, preparation);
 }
 
 }  // namespace plumbline

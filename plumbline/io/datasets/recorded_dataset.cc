@@ -15,6 +15,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -63,6 +65,7 @@ Expected<DepthImage, ImageFailure> DecodeInverseDepth(const fs::path& name,
 struct FrameMessages {
   StoredMessage left;
   std::optional<StoredMessage> right, depth;
+  std::optional<StoredMessage> left_mask = std::nullopt, right_mask = std::nullopt;
 };
 
 RawPixels PixelsOf(const ImageMessage& image) {
@@ -96,6 +99,20 @@ class RecordedDataset : public Dataset {
       const auto depth = Depth(*messages.depth, size);
       if (!depth) return FailureOf(depth.error(), size);
       frame.depth = *depth;
+    }
+    const auto read_mask = [&](const std::optional<StoredMessage>& place,
+                               const Camera& camera,
+                               std::shared_ptr<const GrayImage>& mask) {
+      if (!place) return std::optional<ImageFailure>();
+      auto read = Gray(*place, SizeOf(camera));
+      if (!read) return std::optional(FailureOf(read.error(), SizeOf(camera)));
+      mask = std::make_shared<const GrayImage>(*std::move(read));
+      return std::optional<ImageFailure>();
+    };
+    const Camera& right_camera = calibration().right.value_or(left_camera);
+    if (auto failure = read_mask(messages.left_mask, left_camera, frame.left_mask)) return *failure;
+    if (auto failure = read_mask(messages.right_mask, right_camera, frame.right_mask)) {
+      return *failure;
     }
     return frame;
   }
@@ -205,6 +222,47 @@ std::vector<FrameMessages> Join(const RecordedTopic& left,
   note(left, other);
   if (stereo) note(other, left);
   return frames;
+}
+
+// Takes the topics that are named as masks out of the others; the masks that are files stay empty.
+std::vector<std::optional<RecordedTopic>> TakeMaskTopics(const std::vector<std::string>& masks,
+                                                         RecordedTopics& topics) {
+  std::vector<std::optional<RecordedTopic>> taken(masks.size());
+  std::error_code error;
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    const auto found =
+        std::find_if(topics.images.begin(), topics.images.end(), [&](const RecordedTopic& topic) {
+          return topic.name == masks[i];
+        });
+    if (found != topics.images.end()) {
+      taken[i] = std::move(*found);
+      topics.images.erase(found);
+    } else if (!fs::is_regular_file(masks[i], error)) {
+      std::vector<const RecordedTopic*> all;
+      for (const RecordedTopic& topic : topics.images) all.push_back(&topic);
+      throw InputError(
+          fmt::format("{}: expected an image file or a topic as a mask, found {}; topics: {}",
+                      topics.file->path().string(),
+                      InQuotes(masks[i]),
+                      ListOfTopics(all)));
+    }
+  }
+  return taken;
+}
+
+// Gives frames the masks of their moment, and notes how many have one.
+void AddMasks(const std::vector<std::optional<RecordedTopic>>& masks,
+              std::vector<FrameMessages>& frames,
+              DatasetInfo& info) {
+  for (std::size_t camera = 0; camera < masks.size(); ++camera) {
+    if (!masks[camera]) continue;
+    const auto pairs = PairByStamp(info.stamps_ns, StampsOf(*masks[camera]), kMaxPairDelayNs);
+    for (const auto& [i, k] : pairs) {
+      (camera == 0 ? frames[i].left_mask : frames[i].right_mask) = masks[camera]->images[k].place;
+    }
+    info.notes.push_back(fmt::format(
+        "{} of {} images have a mask of {}", pairs.size(), frames.size(), masks[camera]->name));
+  }
 }
 
 // Notes which topics are read, which are not, and which of the images are not.
@@ -361,6 +419,7 @@ std::unique_ptr<Dataset> OpenRecording(const fs::path& path,
                                        DatasetFormat format,
                                        const DatasetOptions& options) {
   RecordedTopics topics = ReadTopics(path, format);
+  const std::vector<std::optional<RecordedTopic>> masks = TakeMaskTopics(options.masks, topics);
   const ChosenTopics chosen = ChooseTopics(topics, options.topics, options.sensor);
   DatasetInfo info = DescribeDataset(path, format, Available(chosen), options);
   info.notes = topics.notes;
@@ -382,6 +441,7 @@ std::unique_ptr<Dataset> OpenRecording(const fs::path& path,
     if (info.sensor == SensorKind::kRgbd) NoteFrames(*chosen.left, *chosen.depth, info);
   }
   NoteTopics(topics, used, info);
+  AddMasks(masks, frames, info);
   NoteRate(info);
   const std::optional<int> bits = BitsOf(*topics.file, frames, info);
   auto dataset = std::make_unique<RecordedDataset>(

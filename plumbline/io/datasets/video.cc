@@ -254,7 +254,7 @@ std::unique_ptr<Dataset> OpenVideo(const fs::path& path, const DatasetOptions& o
   info.stamps_ns = std::move(content.stamps_ns);
   auto video =
       std::make_unique<VideoDataset>(std::move(info), content.size, std::move(content.frames));
-  return PrepareFrames(std::move(video), turn, options.max_width);
+  return PrepareFrames(std::move(video), turn, PreparationOf(options));
 }
 
 }  // namespace plumbline

@@ -43,10 +43,21 @@ std::optional<std::string> LeftCameraDifference(const Rectifier& rectifier, cons
                           {camera, rectifier.rectified_left_from_left()});
 }
 
-// The images get the size of the map's camera: the run reduced larger ones. Rotated images are
-// those of one camera.
-DatasetOptions AsUsedFor(const SavedMap& saved, DatasetOptions options) {
-  if (!options.max_width) options.max_width = saved.camera.width;
+// True if the pinhole images of a camera have another size than those that it delivers.
+bool HasOtherSize(const Dataset& dataset) {
+  const RectifiedCamera& camera = Rectifier(dataset.calibration()).camera();
+  const Camera& left = dataset.calibration().left;
+  return camera.width != left.width() || camera.height != left.height();
+}
+
+// The images get the size of the map's camera: the run reduced larger ones. Of lenses that are cut
+// out in another size they are reduced as by default. Rotated images are those of one camera.
+DatasetOptions AsUsedFor(const SavedMap& saved,
+                         DatasetOptions options,
+                         const std::filesystem::path& path) {
+  if (!options.max_width && !HasOtherSize(*OpenDataset(path, options))) {
+    options.max_width = saved.camera.width;
+  }
   options.ground_truth = kNoGroundTruth;
   if (!options.sensor && !TurnOf(options.rotate).IsIdentity()) options.sensor = SensorKind::kMono;
   return options;
@@ -126,7 +137,7 @@ KeyFrameImages::KeyFrameImages(const std::filesystem::path& path,
                                const DatasetOptions& given,
                                const SavedMap& saved)
     : octave_scale_(saved.octave_scale) {
-  const DatasetOptions options = AsUsedFor(saved, given);
+  const DatasetOptions options = AsUsedFor(saved, given, path);
   dataset_ = OpenDataset(path, options);
   std::vector<SensorKind> sensors = dataset_->info().available;
   if (options.sensor) sensors = {*options.sensor};
@@ -153,7 +164,7 @@ std::string KeyFrameImages::DifferenceAsStored(const std::string& difference,
                                                const DatasetOptions& given,
                                                const SavedMap& saved) {
   if (rectifier_->camera().height == saved.camera.height) return difference;
-  DatasetOptions options = AsUsedFor(saved, given);
+  DatasetOptions options = AsUsedFor(saved, given, dataset_->info().path);
   options.max_width = given.max_width.value_or(std::numeric_limits<int>::max());
   dataset_ = OpenDataset(dataset_->info().path, options);
   const Camera& camera = dataset_->calibration().left;

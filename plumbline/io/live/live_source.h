@@ -59,6 +59,8 @@ struct LiveOptions {
   // As DatasetOptions; only `rotate` turns the images of a live source.
   Rotation rotate = Rotation::kAuto;
   std::optional<int> max_width = std::nullopt;
+  std::optional<double> view_angle_deg = std::nullopt;
+  std::vector<std::string> masks = {};
   // Longest time until the first frame of a camera, stream or pipeline.
   std::chrono::milliseconds patience = std::chrono::seconds(20);
 };

@@ -53,7 +53,8 @@ std::unique_ptr<LiveSource> OpenLiveSource(const std::string& name, const LiveOp
   std::unique_ptr<LiveSource> source = OpenByKind(name, options);
   const ImageTurn turn{TurnOf(options.rotate)};
   try {
-    FramePreparation preparation(source->info().calibration, turn.orientation, options.max_width);
+    FramePreparation preparation(
+        source->info().calibration, turn.orientation, PreparationOf(options));
     if (preparation.IsIdentity()) return source;
     return std::make_unique<PreparedSource>(std::move(source), std::move(preparation), turn);
   } catch (const InputError& error) {
