@@ -201,7 +201,7 @@ RectifiedCamera PinholeOfInputSize(const Extent& extent, const Camera& left, dou
 RectifiedCamera PinholeOfFocal(const Extent& extent, double focal) {
   const auto pixels = [&](double span) {
     const double most = std::sqrt(static_cast<double>(kMostPixels));
-    return static_cast<int>(std::clamp(std::floor(focal * span) + 1, 2.0, most));
+    return static_cast<int>(std::clamp(std::floor(focal * span + 1e-6) + 1, 2.0, most));
   };
   RectifiedCamera ideal;
   ideal.fx = focal;

@@ -58,5 +58,22 @@ TEST(Info, TellsHowImagesAreTurnedAndReduced) {
   EXPECT_THAT(out, HasSubstr("checked       1 of 1 frames can be used"));
 }
 
+TEST(Info, TellsWhatIsUsedOfALens) {
+  const ScratchFolder folder;
+  const auto info = [&](const std::string& camera) {
+    folder.Write("camera.yaml", "size: [80, 60]\nintrinsics: " + camera + "rate_hz: 3\n");
+    return Info({folder.path().string(), "--view-angle", "90"});
+  };
+  folder.Write("0.pgm", "P5\n80 60\n255\n" + std::string(4800, 'a'));
+  EXPECT_THAT(info("[30, 30, 39.5, 29.5]\ndistortion: equidistant\n"
+                   "distortion_coefficients: [0, 0, 0, 0]\n"),
+              HasSubstr("used view     90 x 90 of 188 degrees, "));
+  EXPECT_THAT(info("[22, 22, 39.5, 29.5]\ndistortion: double_sphere\n"
+                   "distortion_coefficients: [0.1, 0.6]\n"),
+              HasSubstr("as 41x41 pixels of 100 % of the resolution in the middle\n"));
+  EXPECT_THAT(info("[22, 22, 39.5, 29.5]\n"),
+              HasSubstr("no distortion\nused view     90 x 90 of "));
+}
+
 }  // namespace info_test
 }  // namespace plumbline

@@ -77,6 +77,35 @@ def test_images_are_turned_and_reduced_with_their_camera(dataset, sequence):
     assert any("turned by 180 degrees" in note for note in mono.notes)
 
 
+def test_masks_and_views(dataset, sequence, tmp_path):
+    rows, columns = dataset[0].left.shape
+    mask = tmp_path / "mask.pgm"
+    pixels = np.full((rows, columns), 255, np.uint8)
+    pixels[:, : columns // 2] = 0
+    mask.write_bytes(b"P5\n%d %d\n255\n" % (columns, rows) + pixels.tobytes())
+    masked = plumbline.open(sequence, mask=mask)
+    assert dataset[0].mask is None
+    np.testing.assert_array_equal(masked[0].mask, pixels)
+    assert plumbline.open(sequence, mask=[mask, mask])[1].mask.shape == (rows, columns)
+    with pytest.raises(plumbline.InputError, match="mask: expected a path"):
+        plumbline.open(sequence, mask=7)
+
+    def features(frame, **more):
+        system = plumbline.System(dataset.calibration)
+        system.process(frame, **more)
+        system.finish()
+        return system.map.points
+
+    frame = dataset[0]
+    half = len(features(frame, mask=(pixels, None)))
+    assert 0 < half < 0.8 * len(features(frame))
+    assert half == len(features(masked[0]))
+    with pytest.raises(plumbline.InputError, match="mask: expected an image of"):
+        features(frame, mask=pixels[1:])
+    narrow = plumbline.open(sequence, view_angle=30).calibration.rectified_camera()
+    assert narrow.width < dataset.calibration.rectified_camera().width
+
+
 def test_options_in_groups_and_with_dots():
     defaults = plumbline.options()
     assert defaults["slam"]["mode"] == "lockstep"

@@ -45,19 +45,15 @@ std::optional<std::string> LeftCameraDifference(const Rectifier& rectifier, cons
 
 // True if the pinhole images of a camera have another size than those that it delivers.
 bool HasOtherSize(const Dataset& dataset) {
-  const RectifiedCamera& camera = Rectifier(dataset.calibration()).camera();
+  const RectifiedCamera camera = Rectifier(dataset.calibration()).camera();
   const Camera& left = dataset.calibration().left;
   return camera.width != left.width() || camera.height != left.height();
 }
 
-// The images get the size of the map's camera: the run reduced larger ones. Of lenses that are cut
-// out in another size they are reduced as by default. Rotated images are those of one camera.
-DatasetOptions AsUsedFor(const SavedMap& saved,
-                         DatasetOptions options,
-                         const std::filesystem::path& path) {
-  if (!options.max_width && !HasOtherSize(*OpenDataset(path, options))) {
-    options.max_width = saved.camera.width;
-  }
+// The images get the size of the map's camera: the run reduced larger ones. Rotated images are
+// those of one camera.
+DatasetOptions AsUsedFor(const SavedMap& saved, DatasetOptions options) {
+  if (!options.max_width) options.max_width = saved.camera.width;
   options.ground_truth = kNoGroundTruth;
   if (!options.sensor && !TurnOf(options.rotate).IsIdentity()) options.sensor = SensorKind::kMono;
   return options;
@@ -137,8 +133,13 @@ KeyFrameImages::KeyFrameImages(const std::filesystem::path& path,
                                const DatasetOptions& given,
                                const SavedMap& saved)
     : octave_scale_(saved.octave_scale) {
-  const DatasetOptions options = AsUsedFor(saved, given, path);
+  DatasetOptions options = AsUsedFor(saved, given);
   dataset_ = OpenDataset(path, options);
+  if (!given.max_width && HasOtherSize(*dataset_)) {
+    // The width of the map's camera is not that of the images, which are reduced as by default.
+    options.max_width.reset();
+    dataset_ = OpenDataset(path, options);
+  }
   std::vector<SensorKind> sensors = dataset_->info().available;
   if (options.sensor) sensors = {*options.sensor};
   std::optional<std::string> difference;  // difference for the first sensor
@@ -164,7 +165,7 @@ std::string KeyFrameImages::DifferenceAsStored(const std::string& difference,
                                                const DatasetOptions& given,
                                                const SavedMap& saved) {
   if (rectifier_->camera().height == saved.camera.height) return difference;
-  DatasetOptions options = AsUsedFor(saved, given, dataset_->info().path);
+  DatasetOptions options = AsUsedFor(saved, given);
   options.max_width = given.max_width.value_or(std::numeric_limits<int>::max());
   dataset_ = OpenDataset(dataset_->info().path, options);
   const Camera& camera = dataset_->calibration().left;
