@@ -311,11 +311,12 @@ class Walk {
 int Size(std::int16_t v) { return std::abs(static_cast<int>(v)); }
 
 // Marks with 1 the pixels of a row whose derivative `across` is at least min_strength, not below
-// that along the edge, and larger than at both neighbours across, `before` and `after`. The loop is
-// vectorized.
+// that along the edge, and larger than at both neighbours across, which are `step` pixels before
+// and after. The loop is vectorized.
 struct MarkMaxima {
   [[gnu::always_inline]] static inline void Run(const std::int16_t* across,
                                                 const std::int16_t* along,
+                                                std::ptrdiff_t step,
                                                 int min_strength,
                                                 int count,
                                                 std::uint8_t* maxima) {
@@ -325,11 +326,11 @@ struct MarkMaxima {
           std::uint8_t block[size];
           const auto abs = [](std::int16_t v) { return static_cast<std::int16_t>(v < 0 ? -v : v); };
           for (int i = 0; i < size; ++i) {
-            const int x = first + i;
-            const std::int16_t value = abs(across[x]);
-            block[i] = static_cast<std::uint8_t>((value >= least) & (value >= abs(along[x])) &
-                                                 (value >= abs(across[x - 1])) &
-                                                 (value > abs(across[x + 1])));
+            const std::int16_t* at = across + first + i;
+            const std::int16_t value = abs(*at);
+            block[i] =
+                static_cast<std::uint8_t>((value >= least) & (value >= abs(along[first + i])) &
+                                          (value >= abs(at[-step])) & (value > abs(at[step])));
           }
           std::memcpy(maxima + first, block, size);
         });
@@ -346,14 +347,13 @@ std::vector<Anchor> FindAnchors(const GradientImage& gradient, int min_strength,
   for (int y = kBorder; y < gradient.height() - kBorder; ++y) {
     const std::int16_t* dx = gradient.dx.row(y) + kBorder;
     const std::int16_t* dy = gradient.dy.row(y) + kBorder;
+    RunBest<MarkMaxima>(dy, dx, width, min_strength, count, maxima.data());
     for (int x = 0; x < count; x += step) {
-      const int strength = Size(dy[x]);
-      if (strength < min_strength || strength < Size(dx[x])) continue;
-      if (strength < Size(dy[x - width]) || strength <= Size(dy[x + width])) continue;
-      anchors.push_back({x + kBorder, y, false, strength});
+      if (maxima[static_cast<std::size_t>(x)] == 0) continue;
+      anchors.push_back({x + kBorder, y, false, Size(dy[x])});
     }
     if (y % step != 0) continue;
-    RunBest<MarkMaxima>(dx, dy, min_strength, count, maxima.data());
+    RunBest<MarkMaxima>(dx, dy, 1, min_strength, count, maxima.data());
     for (int x = 0; x < count; ++x) {
       if (maxima[static_cast<std::size_t>(x)] == 0) continue;
       anchors.push_back({x + kBorder, y, true, Size(dx[x])});
