@@ -50,12 +50,14 @@ bool IsInk(const TextLine& line, int x, int y) {
 
 // Level of the person at a place relative to its centre, in metres; nullopt beside it.
 std::optional<std::uint8_t> PersonAt(double x, double y) {
-  constexpr double kCell = 0.05;  // metres, of the pattern of the clothes
+  constexpr double kPatternCell = 0.05;  // metres, of the pattern of the clothes
   const bool head = math::Hypot(x, (y + 0.72) / 1.25) < 0.11;
   const bool trunk = std::abs(x) < 0.23 && y >= -0.58 && y < 0.05;
   const bool legs = std::abs(x) < 0.2 && std::abs(x) > 0.03 && y >= 0.05 && y < 0.85;
   if (!head && !trunk && !legs) return std::nullopt;
-  const auto cell = [](double at) { return static_cast<std::int64_t>(std::floor(at / kCell)); };
+  const auto cell = [](double at) {
+    return static_cast<std::int64_t>(std::floor(at / kPatternCell));
+  };
   return static_cast<std::uint8_t>(40 + HashCell(cell(x), cell(y), kShirtSeed) % 180);
 }
 

@@ -60,7 +60,7 @@ TEST(FindStillFeatures, TellsTextInAllImages) {
   EXPECT_EQ(still.with_still, 15U);
   EXPECT_NEAR(still.share, 0.06, 0.01);
   EXPECT_THAT(StillFeaturesNote(still),
-              testing::Optional(testing::HasSubstr("6 % of the points stand still")));
+              ::testing::Optional(::testing::HasSubstr("6 % of the points stand still")));
 }
 
 TEST(FindStillFeatures, KnowsASceneThatMovesAndACameraAtRest) {
