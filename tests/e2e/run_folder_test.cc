@@ -257,62 +257,19 @@ TEST(RunFolder, ARecordingThatDoesNotFitIsAnErrorWithAllResults) {
   EXPECT_EQ(nlohmann::json::parse(Contents(folder / "out/summary.json"))["frames"]["in"], 30);
 }
 
-TEST(RunFolder, HoldsWhatWasDoneBeforeAnImageOfAnotherSize) {
-  const ScratchFolder folder;
-  const fs::path sequence = WritePosterSequence(folder, 12);
-  WriteGrayPng(sequence / "mav0/cam1/data/7.png", GrayImage(40, 30, 90));
-  for (const char* mode : {"inline", "lockstep"}) {
-    const fs::path out = folder / mode;
-    const Outcome outcome =
-        RunProgram(folder, RunArguments(sequence, out, std::string(" --mode ") + mode));
-    EXPECT_EQ(outcome.code, 2);
-    EXPECT_THAT(outcome.err, testing::HasSubstr("400x300"));
-    EXPECT_THAT(outcome.err, testing::HasSubstr("40x30"));
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    const std::string poses = Contents(out / "trajectory.txt");
-    EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), 7);
-    EXPECT_EQ(nlohmann::json::parse(Contents(out / "summary.json"))["frames"]["in"], 7);
-  }
-}
-
-// A run that fails or is stopped early keeps the longer results of an earlier one of the same data.
-TEST(RunFolder, ARunThatIsCutOffDoesNotReplaceALongerOne) {
+TEST(RunFolder, AWholeRunReplacesALongerOne) {
   const ScratchFolder folder;
   const fs::path sequence = WritePosterSequence(folder, 12);
   const fs::path out = folder / "out";
-  const auto poses = [](const fs::path& results) {
-    const std::string text = Contents(results / "trajectory.txt");
-    return std::count(text.begin(), text.end(), '\n');
-  };
-  ASSERT_EQ(RunProgram(folder, RunArguments(sequence, out, "--to 10")).code, 0);
-  fs::copy(out, folder / "copy", fs::copy_options::recursive);
-  WriteGrayPng(sequence / "mav0/cam1/data/7.png", GrayImage(40, 30, 90));
-  const std::string kept = "plumbline: " + out.string() +
-                           " keeps the results of an earlier run, which has more poses; " +
-                           (out / ".part").string() + " has those of this one\n";
-  Outcome outcome = RunProgram(
-      folder, "run " + Quoted(sequence / ".." / sequence.filename()) + " --out " + Quoted(out));
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr(kept));
-  EXPECT_THAT(outcome.out, testing::EndsWith("results in " + (out / ".part").string() + "\n"));
-  for (const std::string& name : FilesOf(folder / "copy")) {
-    EXPECT_TRUE(Contents(out / name) == Contents(folder / "copy" / name)) << name;
+  for (const int frames : {10, 5, 12}) {
+    ASSERT_EQ(
+        RunProgram(folder, RunArguments(sequence, out, "--to " + std::to_string(frames))).code, 0);
+    const std::string poses = Contents(out / "trajectory.txt");
+    EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), frames);
   }
-  EXPECT_EQ(poses(out / ".part"), 7);
-  EXPECT_TRUE(fs::exists(out / ".part/summary.json"));
-  // A whole run with fewer poses replaces the results, and so does one that is cut off later.
-  EXPECT_EQ(RunProgram(folder, RunArguments(sequence, out, "--to 5")).code, 0);
-  EXPECT_EQ(poses(out), 5);
-  outcome = RunProgram(folder, RunArguments(sequence, out, ""));
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_EQ(outcome.err.find("keeps"), std::string::npos) << outcome.err;
-  EXPECT_EQ(poses(out), 7);
-  // Poses of other data say nothing about these.
-  fs::copy(sequence, folder / "other", fs::copy_options::recursive);
-  EXPECT_EQ(RunProgram(folder, RunArguments(folder / "other", out, "--from 2")).code, 2);
-  EXPECT_EQ(poses(out), 5);
 }
 
+// A run that is stopped early keeps the longer results of an earlier one of the same data.
 TEST(RunFolder, ASignalNeverCostsPosesOfAnEarlierRun) {
   const ScratchFolder folder;
   const fs::path sequence = WritePosterSequence(folder, 400);

@@ -94,7 +94,7 @@ def test_masks_and_views(dataset, sequence, tmp_path):
         system = plumbline.System(dataset.calibration)
         system.process(frame, **more)
         system.finish()
-        return system.map.points
+        return system.maps()[0].points
 
     frame = dataset[0]
     half = len(features(frame, mask=(pixels, None)))
