@@ -45,7 +45,7 @@ TEST(ReadEurocSensor, BadFilesAreNamed) {
   EXPECT_EQ(message("", ""), "no error");
   EXPECT_THAT(message("pinhole", "omni"),
               HasSubstr("sensor.yaml:7: camera_model: expected pinhole"));
-  EXPECT_THAT(message("equidistant", "fov"),
+  EXPECT_THAT(message("equidistant", "thin_prism"),
               HasSubstr("sensor.yaml:9: distortion_model: expected"));
   EXPECT_THAT(message("T_BS", "T_SB"), HasSubstr("T_BS: expected a group of keys"));
   EXPECT_THAT(message("0,0,0,1]", "0,0,0,2]"),
