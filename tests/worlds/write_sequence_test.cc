@@ -14,6 +14,8 @@
 #include <cmath>
 #include <map>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -325,11 +327,10 @@ float LightAt(const Image<float>& light, const Camera& camera, const Eigen::Vect
 TEST(SyntheticSequence, EveryLensSeesWhatAPinholeSees) {
   SynthOptions options = Small();
   options.noise = 0;
-  options.samples = 16;
-  options.texel = 1;
+  options.samples = 8;
+  options.texel = 4;
   options.lens = SynthLens::kPinhole;
   options.view_deg = 100;
-  options.scale = 0.5;
   const SyntheticSequence pinhole("room", options, 2);
   const Image<float> expected = pinhole.RenderIdeal(1, 0).light;
   for (const auto& [lens, name] : EnumNames(std::type_identity<SynthLens>{})) {
@@ -359,26 +360,22 @@ TEST(SyntheticSequence, EveryLensSeesWhatAPinholeSees) {
 }
 
 TEST(WriteSequence, AnyLensIsReadAsItWasRendered) {
-  for (const auto format : {SequenceFormat::kEuroc, SequenceFormat::kTum}) {
-    for (const auto& [lens, name] : EnumNames(std::type_identity<SynthLens>{})) {
-      SynthOptions options = Small();
-      options.frames = 2;
-      options.lens = lens;
-      options.view_deg = 90;
-      const ScratchFolder folder;
-      const SyntheticSequence sequence("room", options, 1);
-      WriteSequence(sequence, format, folder / "s", 1);
-      const auto dataset = OpenDataset(folder / "s");
-      if (lens == SynthLens::kEuroc) continue;  // in the form of its data set, with fewer digits
-      EXPECT_EQ(dataset->calibration().left.intrinsics().model,
-                sequence.calibration().left.intrinsics().model)
-          << name;
-      EXPECT_NEAR(dataset->calibration().left.intrinsics().fx,
-                  sequence.calibration().left.intrinsics().fx,
-                  1e-9)
-          << name;
-      EXPECT_TRUE(dataset->info().ground_truth) << name;
-    }
+  for (const auto& [format, lens] : {std::pair{SequenceFormat::kEuroc, SynthLens::kOmni},
+                                     {SequenceFormat::kTum, SynthLens::kRational}}) {
+    SynthOptions options = Small();
+    options.frames = 2;
+    options.lens = lens;
+    options.view_deg = 90;
+    const ScratchFolder folder;
+    const SyntheticSequence sequence("room", options, 1);
+    WriteSequence(sequence, format, folder / "s", 1);
+    const auto dataset = OpenDataset(folder / "s");
+    const CameraIntrinsics& read = dataset->calibration().left.intrinsics();
+    const CameraIntrinsics& rendered = sequence.calibration().left.intrinsics();
+    EXPECT_EQ(read.model, rendered.model);
+    EXPECT_NEAR(read.fx, rendered.fx, 1e-9);
+    EXPECT_NEAR(read.distortion[1], rendered.distortion[1], 1e-12);
+    EXPECT_TRUE(dataset->info().ground_truth);
   }
 }
 
@@ -394,7 +391,7 @@ TEST(WriteSequence, TextAndAPersonHaveMasks) {
   const auto none = OpenDataset(folder / "none");
   const auto both =
       OpenDataset(folder / "both", {.masks = {(folder / "both/mask_text.png").string()}});
-  int with_person = 0;
+  std::vector<int> masked;
   for (std::size_t i = 0; i < both->size(); ++i) {
     const SensorFrame plain = *none->Read(i), drawn = *both->Read(i);
     ASSERT_TRUE(drawn.left_mask);
@@ -409,10 +406,12 @@ TEST(WriteSequence, TextAndAPersonHaveMasks) {
       }
     }
     EXPECT_GT(different, black / 2);
-    with_person += black > 2000 ? 1 : 0;
+    masked.push_back(black);
   }
-  EXPECT_GE(with_person, 3);
-  EXPECT_LE(with_person, 4);
+  // The text alone, or somebody as well.
+  const int text = *std::min_element(masked.begin(), masked.end());
+  EXPECT_GT(text, 500);
+  EXPECT_EQ(std::count_if(masked.begin(), masked.end(), [&](int b) { return b > text + 50; }), 4);
 }
 
 TEST(SyntheticSequence, KittisCamerasAreIdealAndScale) {
