@@ -77,6 +77,8 @@ struct Parabola {
   // Returns the decrease of the cost by the correction at the minimum, compared with no correction.
   // Valid for a parabola fitted around zero.
   double Gain() const { return 0.5 * curvature * minimum * minimum; }
+  // Returns the largest correction that is within so many deviations of the minimum.
+  double Most(double sigmas) const { return std::abs(minimum) + sigmas / std::sqrt(curvature); }
 };
 
 // Returns the parabola through the costs at `middle` and at `step` before and after it.
@@ -95,6 +97,11 @@ double MeanSize(const BaProblem& problem) {
     sum += one.ShiftAt(o.measurement.px).squaredNorm();
   }
   return std::sqrt(sum / static_cast<double>(problem.point_observations.size()));
+}
+
+// Returns true if a correction moves the points by more than their deviations allow for already.
+bool Matters(double border_px, const BaProblem& problem) {
+  return std::abs(border_px) * MeanSize(problem) > kAllowed * problem.camera.width;
 }
 
 // Fits a parabola to the profile around `middle`; nullopt if it has no minimum nearby.
@@ -140,6 +147,7 @@ RadialCalibration CalibrateRadialDistortion(const BaProblem& problem,
   // views.
   constexpr double kSigmas = 6;
   constexpr double kEnough = 0.5 * kSigmas * kSigmas;  // least decrease of the cost
+  constexpr double kSurely = 4;                        // deviations that exclude a correction
   // A smaller change of the known correction, relative to the width, is not worth an adjustment.
   constexpr double kLeastChange = 2e-4;
   if (problem.camera.baseline > 0 || problem.point_observations.empty()) return {};
@@ -152,7 +160,10 @@ RadialCalibration CalibrateRadialDistortion(const BaProblem& problem,
     fit = FitAround(profile, 0, kFirstStep * width, kMost * sigma);
     // Longer steps change the gain that short ones find by far less than a factor of two, so that
     // half of kEnough is a safe limit.
-    if (!fit || fit->Gain() < 0.5 * kEnough) return {};
+    if (!fit) return {};
+    if (fit->Gain() < 0.5 * kEnough) {
+      return {{}, {}, {}, !Matters(fit->Most(kSurely), problem)};
+    }
   }
   fit = FitAround(profile, 0, step, kMost * sigma);
   if (!fit) return {};
@@ -170,8 +181,7 @@ RadialCalibration CalibrateRadialDistortion(const BaProblem& problem,
   const std::optional<double> without = profile.At(-known_px);
   const std::optional<double> with = profile.At(whole - known_px);
   if (!as_it_is || !without || !with) return {};
-  const bool matters = std::abs(whole) * MeanSize(problem) > kAllowed * width;
-  const bool counts = *without - *with > kEnough && matters;
+  const bool counts = *without - *with > kEnough && Matters(whole, problem);
   const bool contradicted = *as_it_is - *without > kEnough;
   if (!counts && !contradicted) return {};
   const double change = (counts ? whole : 0) - known_px;

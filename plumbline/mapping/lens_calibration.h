@@ -24,6 +24,9 @@ struct RadialCalibration {
   // change.
   std::vector<Rigid3> poses;
   std::vector<Eigen::Vector3d> points;
+  // True if no correction is applied, and the points exclude by four deviations that one matters:
+  // the lens need not be estimated again.
+  bool is_right = false;
 };
 
 // Estimates the lens correction from the points of a map of one camera. A little distortion changes

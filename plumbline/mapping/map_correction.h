@@ -31,6 +31,7 @@ struct MapCorrection {
   std::map<PointId, PointPlace> points;
   std::vector<edit::RemovePointObservation> outliers;
   std::optional<LensCorrection> lens = {};  // new lens correction of the map, if it changed
+  bool lens_is_right = false;  // RadialCalibration::is_right; may be true in an empty correction
 
   bool empty() const { return keyframes.empty(); }
 };

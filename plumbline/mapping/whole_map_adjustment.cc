@@ -89,7 +89,7 @@ std::optional<BaResult> SolveForLens(const RadialCalibration& lens,
 // with the newly learned one.
 MapCorrection CorrectionOf(const Map& map,
                            const MapProblem& whole,
-                           const LensCorrection& learned,
+                           const RadialCalibration& learned,
                            const BaResult& result) {
   MapCorrection correction;
   const std::vector<double> scales = ScalesOf(whole.problem, result);
@@ -106,8 +106,10 @@ MapCorrection CorrectionOf(const Map& map,
     correction.points[id] = {map.Find(id)->position, world_from_problem * result.points[k]};
   }
   correction.outliers = OutliersOf(whole, result);
-  if (learned.border_px() != 0) {
-    const double border_px = map.correction().lens.border_px() + learned.border_px();
+  correction.lens_is_right = learned.is_right;
+  const double change_px = learned.correction.border_px();
+  if (change_px != 0) {
+    const double border_px = map.correction().lens.border_px() + change_px;
     correction.lens =
         border_px == 0 ? LensCorrection() : LensCorrection(whole.problem.camera, border_px);
   }
@@ -132,7 +134,7 @@ MapCorrection AdjustPointsToLens(const Map& map,
   KeepPlaceOf(newest, whole.problem, *result);
   // CorrectionOf leaves fixed keyframes in their places, and the first one has moved with the rest.
   whole.problem.poses.front().fixed = false;
-  MapCorrection correction = CorrectionOf(map, whole, change.correction, *result);
+  MapCorrection correction = CorrectionOf(map, whole, change, *result);
   for (std::size_t k = 0; k < whole.keyframes.size(); ++k) {
     if (!is_fixed(k)) correction.keyframes.erase(whole.keyframes[k]);
   }
@@ -184,7 +186,7 @@ MapCorrection AdjustWholeMap(const Map& map,
       [&](BaResult& solution) { FixScaleToOldestKeyFrame(whole.problem, solution); },
       stop);
   if (!result) return {};
-  return CorrectionOf(map, whole, learned.correction, *result);
+  return CorrectionOf(map, whole, learned, *result);
 }
 
 MapCorrection AdjustToLens(const Map& map,
@@ -197,7 +199,11 @@ MapCorrection AdjustToLens(const Map& map,
   if (IsToStop(stop)) return {};
   const RadialCalibration learned =
       CalibrateRadialDistortion(whole.problem, map.correction().lens.border_px(), stop);
-  if (learned.poses.empty()) return {};
+  if (learned.poses.empty()) {
+    MapCorrection none;
+    none.lens_is_right = learned.is_right;
+    return none;
+  }
   return AdjustPointsToLens(map, learned, options, std::move(whole), stop);
 }
 
@@ -209,7 +215,7 @@ MapCorrection BringToLens(const Map& map,
                           const StopCheck& stop) {
   const double change = lens.border_px() - map.correction().lens.border_px();
   if (change == 0 || map.keyframes().empty()) return {};
-  const RadialCalibration known{{imaging.camera, change}, {}, {}};
+  const RadialCalibration known{{imaging.camera, change}, {}, {}, false};
   MapProblem whole = MakeWholeMap(map, imaging, weights, {}, stop);
   if (IsToStop(stop)) return {};
   return AdjustPointsToLens(map, known, options, std::move(whole), stop);

@@ -22,20 +22,15 @@ bool MayCalibrateRadialDistortion(const Map& map) {
   return map.keyframes().size() <= kMostKeyFrames;
 }
 
-BackgroundAdjustment::Compute WholeMapAdjustment(const CameraAndPyramid& imaging,
-                                                 const LineSettings& lines,
-                                                 const MappingOptions& mapping) {
-  return [imaging, lines, mapping](const Map& map, const StopCheck& stop) {
-    MappingOptions adjusted = mapping;
-    adjusted.lens_calibration = mapping.lens_calibration && MayCalibrateRadialDistortion(map);
-    return AdjustWholeMap(map, imaging, lines, adjusted, stop);
+auto WholeMapAdjustment(const CameraAndPyramid& imaging, const LineSettings& lines) {
+  return [imaging, lines](MappingOptions mapping, const Map& map, const StopCheck& stop) {
+    mapping.lens_calibration = mapping.lens_calibration && MayCalibrateRadialDistortion(map);
+    return AdjustWholeMap(map, imaging, lines, mapping, stop);
   };
 }
 
-BackgroundAdjustment::Compute LensAdjustment(const CameraAndPyramid& imaging,
-                                             const SlamOptions& options) {
-  return [imaging, weights = options.lines.weights(), mapping = options.mapping](
-             const Map& map, const StopCheck& stop) {
+auto LensAdjustment(const CameraAndPyramid& imaging, const LineWeights& weights) {
+  return [imaging, weights](const MappingOptions& mapping, const Map& map, const StopCheck& stop) {
     return AdjustToLens(map, imaging, weights, mapping, stop);
   };
 }
@@ -60,8 +55,8 @@ Mapper::Mapper(const CameraAndPyramid& imaging,
       relocalizer_(imaging, options.tracking, methods.MakePoseEstimator(imaging.camera, options)),
       places_(imaging, options.loop),
       adjustment_(AdjustmentWorker(mode_, execution)),
-      adjust_map_(WholeMapAdjustment(imaging, methods.Lines(options.lines), options.mapping)),
-      adjust_to_lens_(LensAdjustment(imaging, options)) {}
+      adjust_map_(WholeMapAdjustment(imaging, methods.Lines(options.lines))),
+      adjust_to_lens_(LensAdjustment(imaging, options.lines.weights())) {}
 
 void Mapper::Continue(Atlas atlas, const LocalMapper::State& state) {
   PLUMBLINE_CHECK(atlas_.empty(), "maps are loaded before the first keyframe");
@@ -137,11 +132,12 @@ void Mapper::Recognize(KeyFrameId id, std::int64_t frame, std::vector<MappingSte
   changed_.insert(map.id());
   const std::vector<MappingStep> more = local_.AdjustLoopNeighbourhood(map, id, *older);
   times.insert(times.end(), more.begin(), more.end());
-  adjustment_.Begin(map, frame + AdjustmentDelay(map), adjust_map_);
+  adjustment_.Begin(map, frame + AdjustmentDelay(map), std::bind_front(adjust_map_, options_));
 }
 
 // Begins to calibrate the lens of a single camera when the map has enough keyframes to determine
-// it, and again when their number has doubled, four times. During another adjustment, the attempt
+// it, and again when their number has doubled, four times, or until its points show that the lens
+// needs no correction. During another adjustment, the attempt
 // is postponed to the first keyframe after it.
 void Mapper::CalibrateRadialDistortion(KeyFrameId newest, std::int64_t frame) {
   constexpr std::int64_t kFirst = 16, kLast = 256;
@@ -152,7 +148,7 @@ void Mapper::CalibrateRadialDistortion(KeyFrameId newest, std::int64_t frame) {
   const std::int64_t taken_in = map.NumberOf(newest) + 1;
   if (adjustment_.Running() || asked >= kLast || taken_in < 2 * asked) return;
   asked = taken_in;
-  adjustment_.Begin(map, frame + AdjustmentDelay(map), adjust_to_lens_);
+  adjustment_.Begin(map, frame + AdjustmentDelay(map), std::bind_front(adjust_to_lens_, options_));
 }
 
 // Adjusts a new map to the lens that the newest of the other maps has learned.
@@ -232,6 +228,7 @@ MapUpdate Mapper::Process(const MapReader& reader, std::int64_t) {
 // Applies the correction that was computed beside mapping, if it takes effect at this frame.
 void Mapper::TakeCorrection(std::int64_t frame) {
   const auto found = corrects_when_ready_ ? adjustment_.TakeReady() : adjustment_.TakeDue(frame);
+  if (found && found->correction.lens_is_right) options_.lens_calibration = false;
   if (!found || found->correction.empty()) return;
   Map& map = *atlas_.Find(atlas_.Current(found->map));
   Apply(found->correction, map);

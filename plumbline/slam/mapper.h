@@ -154,7 +154,7 @@ class Mapper {
   RunMode mode_;
   bool corrects_when_ready_;  // in a live run with threads
   RectifiedCamera camera_;
-  MappingOptions options_;
+  MappingOptions options_;  // lens_calibration is reset once the lens is known to be right
   LocalMapper local_;
   Relocalizer relocalizer_;
   PlaceRecognition places_;
@@ -167,7 +167,8 @@ class Mapper {
   // Number of keyframes of each map at the last attempt to calibrate its lens.
   std::map<MapId, std::int64_t> lens_asked_;
   BackgroundAdjustment adjustment_;
-  BackgroundAdjustment::Compute adjust_map_, adjust_to_lens_;
+  std::function<MapCorrection(const MappingOptions&, const Map&, const StopCheck&)> adjust_map_,
+      adjust_to_lens_;
 };
 
 }  // namespace plumbline

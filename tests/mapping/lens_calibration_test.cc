@@ -28,9 +28,9 @@ Vector2d Displaced(const LensCorrection& correction, Vector2d px) {
 // A camera that turns by a right angle on a bend, among points on all sides, its images displaced
 // by what a lens correction of `border_px` would
 // take away. Each point is shown by some views that follow each other.
-BaProblem DriveRoundABend(double border_px, std::uint64_t seed = 3) {
+BaProblem DriveRoundABend(double border_px, std::uint64_t seed = 3, double noise_px = 0.2) {
   constexpr int kViews = 30, kPoints = 1500, kMostShown = 6;
-  constexpr double kRadius = 10, kNoise = 0.2;
+  constexpr double kRadius = 10;
   BaProblem problem;
   problem.camera = OneCamera();
   const LensCorrection lens(problem.camera, border_px);
@@ -53,7 +53,7 @@ BaProblem DriveRoundABend(double border_px, std::uint64_t seed = 3) {
       if (px.x() < 0 || px.x() > 600 || px.y() < 0 || px.y() > 180) continue;
       const Vector2d noise(rng.Normal(), rng.Normal());
       problem.point_observations.push_back(
-          {k, index, {Displaced(lens, px) + kNoise * noise, kNoise, {}}});
+          {k, index, {Displaced(lens, px) + noise_px * noise, noise_px, {}}});
       ++shown;
     }
     if (shown > 0) problem.points.push_back(point);
@@ -90,6 +90,13 @@ TEST(CalibrateRadialDistortion, LeavesAGoodCalibrationAlone) {
   EXPECT_EQ(CalibrateRadialDistortion(DriveRoundABend(0)).correction.border_px(), 0);
   // Less than what the deviations of corners allow for in any case.
   EXPECT_EQ(CalibrateRadialDistortion(DriveRoundABend(0.4)).correction.border_px(), 0);
+}
+
+TEST(CalibrateRadialDistortion, TellsThatTheLensIsRightWhereThePointsExcludeThatItMatters) {
+  constexpr double kExact = 0.05;
+  EXPECT_TRUE(CalibrateRadialDistortion(DriveRoundABend(0, 3, kExact)).is_right);
+  EXPECT_FALSE(CalibrateRadialDistortion(DriveRoundABend(3, 3, kExact)).is_right);
+  EXPECT_FALSE(CalibrateRadialDistortion(DriveRoundABend(0)).is_right);  // too few to exclude it
 }
 
 TEST(CalibrateRadialDistortion, IsForOneCameraAlone) {
