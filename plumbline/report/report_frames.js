@@ -53,22 +53,19 @@ function makePicture(sample) {
 
 // The image as delivered, with the outline of the part that is used.
 function lensFigure(lens) {
-  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-  svg.setAttribute("viewBox", `0 0 ${lens.width} ${lens.height}`);
-  svg.setAttribute("role", "img");
-  svg.setAttribute("aria-label", "Used part of the image as delivered");
-  svg.style.width = "16rem";
-  const add = (tag, attributes) => {
-    const shape = document.createElementNS("http://www.w3.org/2000/svg", tag);
-    for (const [name, value] of Object.entries(attributes)) shape.setAttribute(name, value);
-    svg.append(shape);
-  };
-  add("rect", {width: lens.width, height: lens.height, fill: "none", stroke: "currentColor",
-               "stroke-width": lens.width / 200});
-  add("polygon", {points: lens.outline.map((px) => px.join(",")).join(" "),
-                  fill: paint("matched-line"), "fill-opacity": 0.25, stroke: paint("matched-line"),
-                  "stroke-width": lens.width / 150});
-  return make("figure", {}, svg, make("figcaption", {}, `Used of the lens: ${lens.text}.`));
+  const figure = make("figure", {});
+  const outline = lens.outline.map((px) => px.join(",")).join(" ");
+  const line = paint("matched-line");
+  figure.innerHTML =
+      `<svg viewBox="0 0 ${lens.width} ${lens.height}" style="width: 16rem" role="img"
+            aria-label="Used part of the image as delivered">
+         <rect width="${lens.width}" height="${lens.height}" fill="none" stroke="currentColor"
+               stroke-width="${lens.width / 200}"/>
+         <polygon points="${outline}" fill="${line}" fill-opacity="0.25" stroke="${line}"
+                  stroke-width="${lens.width / 150}"/>
+       </svg>`;
+  figure.append(make("figcaption", {}, `Used of the lens: ${lens.text}.`));
+  return figure;
 }
 
 function buildImages() {
