@@ -111,6 +111,11 @@ struct RadialPart {
   std::optional<double> Invert(double bent, double high) const {
     double low = 0;
     const auto bent_of = [&](double s) { return s * Factor(s * s); };
+    // The end may be a pole, known to rounding: just before it the bent radius is without limit.
+    const double end = high;
+    for (double back = 1e-14; quotient && !(bent_of(high) > bent) && back < 1e-4; back *= 10) {
+      high = end * (1 - back);
+    }
     if (!(bent_of(high) > bent)) return std::nullopt;
     double s = std::clamp(bent, low, high);
     for (int i = 0; i < 100 && high - low > kConverged; ++i) {

@@ -165,20 +165,50 @@ std::optional<Eigen::Vector2d> RectifiedTangents(const View& view, const Eigen::
   return Eigen::Vector2d(turned.head<2>() / turned.z());
 }
 
-// Shrinks the extent until its sides are inside the raw image's curved border.
+// Returns the tangents of the outermost pixel with a ray between the principal point and a pixel of
+// the border.
+std::optional<Eigen::Vector2d> OutermostTangents(const View& view, const Eigen::Vector2d& border) {
+  const Eigen::Vector2d centre(view.camera->intrinsics().cx, view.camera->intrinsics().cy);
+  std::optional<Eigen::Vector2d> tangents = RectifiedTangents(view, centre);
+  double low = 0, high = 1;
+  while (high - low > 1e-4) {
+    const double middle = 0.5 * (low + high);
+    const auto here = RectifiedTangents(view, centre + middle * (border - centre));
+    if (here) tangents = here;
+    (here ? low : high) = middle;
+  }
+  return tangents;
+}
+
+// Shrinks the extent until its sides are inside the raw image's curved border, or, where a whole
+// side of it has no rays, inside what the lens shows towards the middle of that side.
 void ShrinkToInside(const View& view, Extent& extent) {
   constexpr int kSamples = 64;
   const double right = view.camera->width() - 1;
   const double bottom = view.camera->height() - 1;
-  for (int i = 0; i <= kSamples; ++i) {
-    const double x = right * i / kSamples;
-    const double y = bottom * i / kSamples;
-    if (const auto p = RectifiedTangents(view, {0, y})) extent.x0 = std::max(extent.x0, p->x());
-    if (const auto p = RectifiedTangents(view, {right, y})) extent.x1 = std::min(extent.x1, p->x());
-    if (const auto p = RectifiedTangents(view, {x, 0})) extent.y0 = std::max(extent.y0, p->y());
-    if (const auto p = RectifiedTangents(view, {x, bottom}))
-      extent.y1 = std::min(extent.y1, p->y());
-  }
+  // Calls shrink(tangents) for the pixels of one side.
+  const auto for_side = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to, auto shrink) {
+    bool any = false;
+    for (int i = 0; i <= kSamples; ++i) {
+      const double share = static_cast<double>(i) / kSamples;
+      if (const auto p = RectifiedTangents(view, (1 - share) * from + share * to)) {
+        shrink(*p);
+        any = true;
+      }
+    }
+    if (any) return;
+    if (const auto p = OutermostTangents(view, 0.5 * (from + to))) shrink(*p);
+  };
+  const Eigen::Vector2d corners[] = {{0, 0}, {right, 0}, {right, bottom}, {0, bottom}};
+  using Tangents = Eigen::Vector2d;
+  for_side(
+      corners[0], corners[3], [&](const Tangents& p) { extent.x0 = std::max(extent.x0, p.x()); });
+  for_side(
+      corners[1], corners[2], [&](const Tangents& p) { extent.x1 = std::min(extent.x1, p.x()); });
+  for_side(
+      corners[0], corners[1], [&](const Tangents& p) { extent.y0 = std::max(extent.y0, p.y()); });
+  for_side(
+      corners[3], corners[2], [&](const Tangents& p) { extent.y1 = std::min(extent.y1, p.y()); });
 }
 
 // Returns the pinhole camera of the input's size.

@@ -176,6 +176,18 @@ TEST(Camera, RationalMatchesTheFormulaByHand) {
   EXPECT_NEAR(px->y(), 505 * (y * radial + 0.002 * 0.57 + 2 * 0.003 * 0.12) + in.cy, 1e-10);
 }
 
+// The denominator's zero, where the radius has no limit, is known to rounding alone.
+TEST(Camera, ARationalLensHasRaysUpToItsPoleWhateverTheLastDigit) {
+  for (const double last : {-14.2, -14.24, -14.25, -14.2606, -14.2607, -14.2608}) {
+    const Camera camera(
+        Lens(DistortionModel::kRational,
+             600,
+             {-4.7337, 16.2768, -0.00082, 0.00003, -14.0361, -4.7894, 16.5058, last}));
+    EXPECT_TRUE(camera.Ray({0, 0})) << last;
+    EXPECT_TRUE(camera.Ray({320, 240})) << last;
+  }
+}
+
 TEST(Camera, JacobianIsTheDerivativeOfProject) {
   Rng rng(1);
   for (const CameraIntrinsics& in : AllModels()) {

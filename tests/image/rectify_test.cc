@@ -307,6 +307,23 @@ TEST(Rectifier, EveryLensIsCutOutWhereItHasPixels) {
   }
 }
 
+TEST(Rectifier, ALensWithoutRaysAtTheSidesIsCutWhereItEnds) {
+  CameraIntrinsics in{.fx = 700,
+                      .fy = 700,
+                      .cx = 640,
+                      .cy = 360,
+                      .width = 1280,
+                      .height = 720,
+                      .model = DistortionModel::kRadTan};
+  in.distortion = {-0.35};  // the radius stops rising at 0.65: nothing is at the left and right
+  Calibration calibration;
+  calibration.left = Camera(in);
+  ASSERT_FALSE(calibration.left.Ray({0, 360}));
+  const Rectifier rectifier(calibration);
+  EXPECT_LT(InvalidFraction(rectifier.left_mask()), 0.1);
+  EXPECT_GT(rectifier.LeftCoverage().used, 0.5);
+}
+
 TEST(Rectifier, AViewAngleCutsOtherImagesToo) {
   Calibration calibration = KittiCalibration();
   const RectifiedCamera whole = Rectifier(calibration).camera();
