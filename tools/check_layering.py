@@ -14,6 +14,7 @@ import sys
 LAYERS = {
     "base": [],
     "geometry": ["base"],
+    "inertial": ["base", "geometry"],
     "solvers": ["base", "geometry"],
     "image": ["base", "geometry"],
     "optimization": ["base", "geometry"],
@@ -38,7 +39,7 @@ LAYERS = {
     "line_rivals": ["base", "geometry", "map", "matching", "optimization", "tracking"],
     "rivals": ["base", "geometry", "features", "image", "map", "matching", "optimization",
                "solvers", "line_cutting", "initialization", "tracking", "slam", "line_rivals"],
-    "ceres_reference": ["base", "geometry", "optimization", "matching", "line_rivals"],
+    "ceres_reference": ["base", "geometry", "inertial", "optimization", "matching", "line_rivals"],
     "starts": ["base", "geometry", "image", "features", "map", "matching", "initialization", "io",
                "slam", "report"],
     "cutting_testbed": ["base", "geometry", "optimization", "line_cutting", "rivals"],

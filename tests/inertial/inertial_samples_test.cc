@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/inertial/inertial_samples.h"
+
+#include "tests/inertial/invented_motion.h"
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using Samples = std::vector<InertialSample>;
+
+InertialSample At(std::int64_t stamp_ns, double value = 0) {
+  return {stamp_ns, Eigen::Vector3d::Constant(value), Eigen::Vector3d::Constant(-value)};
+}
+
+TEST(InOrderOfTime, LeavesOutWhatDoesNotIncrease) {
+  const OrderedSamples ordered =
+      InOrderOfTime(Samples{At(1), At(3), At(2), At(3), At(3), At(4), At(0), At(9)});
+  ASSERT_EQ(ordered.samples.size(), 4U);
+  EXPECT_EQ(ordered.samples[2].stamp_ns, 4);
+  EXPECT_EQ(ordered.samples[3].stamp_ns, 9);
+  EXPECT_EQ(ordered.backward, 2U);
+  EXPECT_EQ(ordered.repeated, 2U);
+  EXPECT_TRUE(InOrderOfTime({}).samples.empty());
+}
+
+TEST(JoinedSamples, InterpolatesTheSlowerOneWhicheverItIs) {
+  // A gyroscope at 400 Hz and an accelerometer at 250 Hz, and the other way round.
+  for (const bool gyroscope_faster : {true, false}) {
+    const Samples gyroscope = IdealSamples(gyroscope_faster ? 400 : 250);
+    Samples accelerometer = IdealSamples(gyroscope_faster ? 250 : 400);
+    const Samples joined = JoinedSamples(gyroscope, accelerometer);
+    EXPECT_NEAR(MedianInterval(joined), 1 / 400.0, 1e-9);
+    ASSERT_GT(joined.size(), 470U);
+    for (const InertialSample& sample : joined) {
+      const InertialSample ideal =
+          IdealSample(static_cast<double>(sample.stamp_ns - kMotionStart) / 1e9);
+      EXPECT_LT((sample.angular_rate - ideal.angular_rate).norm(), 1e-4);
+      EXPECT_LT((sample.specific_force - ideal.specific_force).norm(), 1e-3);
+    }
+  }
+}
+
+TEST(JoinedSamples, LeavesOutStampsThatTheOtherOneDoesNotReach) {
+  const Samples fast = {At(0), At(1), At(2), At(3), At(4), At(5), At(6)};
+  const Samples slow = {At(1, 1), At(3, 3), At(5, 5)};
+  const Samples joined = JoinedSamples(fast, slow);
+  ASSERT_EQ(joined.size(), 5U);
+  EXPECT_EQ(joined.front().stamp_ns, 1);
+  EXPECT_EQ(joined[1].specific_force.x(), -2);
+  EXPECT_EQ(joined[1].angular_rate.x(), 0);
+  EXPECT_EQ(joined.back().stamp_ns, 5);
+  EXPECT_TRUE(JoinedSamples(fast, {}).empty());
+  EXPECT_TRUE(JoinedSamples({}, slow).empty());
+}
+
+}  // namespace
+}  // namespace plumbline
