@@ -5,9 +5,11 @@
 #include "plumbline/base/printable.h"
 #include "plumbline/features/stereo_pair_check.h"
 #include "plumbline/image/rectify.h"
+#include "plumbline/inertial/inertial_check.h"
 #include "plumbline/io/cameras/camera_file.h"
 #include "plumbline/io/datasets/dataset.h"
 #include "plumbline/io/datasets/open_dataset.h"
+#include "plumbline/io/inertial/inertial_recording.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/error_options.h"
 
@@ -30,20 +32,22 @@ namespace plumbline {
 namespace {
 
 CommandSyntax InfoSyntax() {
-  return {"info",
-          "Tells what is at a path: format, sensors, frames, rate, calibration, what is missing.",
-          {"PATH"},
-          {{"--sensor", "mono|stereo|rgbd", "look at the data as for this sensor (richest)"},
-           {"--format",
-            "auto|euroc|tum|kitti|images|video|bag|mcap|rosbag2",
-            "how the data is stored (auto)"},
-           {"--topic", "NAME", "images of a bag or an MCAP file; may be repeated"},
-           {"--camera", "FILE", "camera file or name of a built-in camera"},
-           {"--ground-truth", "FILE|none", "poses to look at in place of those with the data"},
-           {"--rotate", "auto|none|90|180|270", kRotateHelp},
-           {"--max-width", "PIXELS", kMaxWidthHelp},
-           {"--view-angle", "DEGREES", kViewAngleHelp},
-           {"--check", "", "decode every image and name those that cannot be used"}}};
+  return {
+      "info",
+      "Tells what is at a path: format, sensors, frames, rate, calibration, what is missing.",
+      {"PATH"},
+      {{"--sensor", "mono|stereo|rgbd", "look at the data as for this sensor (richest)"},
+       {"--format",
+        "auto|euroc|tum|kitti|images|video|bag|mcap|rosbag2",
+        "how the data is stored (auto)"},
+       {"--topic", "NAME", "images, or samples, of a bag or an MCAP file; may be repeated"},
+       {"--camera", "FILE", "camera file or name of a built-in camera"},
+       {"--imu", "FILE|off|auto", "calibration of the inertial sensor; auto: with the data (auto)"},
+       {"--ground-truth", "FILE|none", "poses to look at in place of those with the data"},
+       {"--rotate", "auto|none|90|180|270", kRotateHelp},
+       {"--max-width", "PIXELS", kMaxWidthHelp},
+       {"--view-angle", "DEGREES", kViewAngleHelp},
+       {"--check", "", "decode every image and name those that cannot be used"}}};
 }
 
 void Row(const std::string& name, const std::string& text) {
@@ -133,6 +137,66 @@ void PrintGroundTruth(const DatasetInfo& info) {
                   truth.path.string()));
 }
 
+std::string Describe(const InertialCalibration& calibration, const std::string& source) {
+  std::vector<std::string> known, missing;
+  (calibration.imu_from_left ? known : missing).emplace_back("place");
+  (calibration.noise ? known : missing).emplace_back("noise");
+  std::string text = source.empty() ? "none" : source;
+  if (!known.empty()) text += fmt::format(": {}", fmt::join(known, ", "));
+  if (calibration.imu_from_left) {
+    text += fmt::format("; {:.3f} m from the left camera",
+                        calibration.imu_from_left->translation.norm());
+  }
+  if (calibration.time_offset) {
+    text += fmt::format("; clock {:+.4g} s from the camera's", *calibration.time_offset);
+  }
+  if (!missing.empty()) text += fmt::format("; missing: {}", fmt::join(missing, ", "));
+  return text;
+}
+
+void PrintInertial(const InertialRecording& recording) {
+  const InertialCheck check = CheckInertial(recording.ordered, recording.calibration);
+  Row("imu",
+      fmt::format("{} samples in {:.3f} s, {:.4g} Hz, jitter {:.2g} ms; {}",
+                  check.samples,
+                  check.seconds,
+                  check.rate_hz,
+                  1e3 * check.jitter,
+                  recording.source));
+  Row("imu file", Describe(recording.calibration, recording.calibration_source));
+  if (check.rest_seconds > 0) {
+    Row("imu at rest",
+        fmt::format("{:g} s: gyroscope {:.3g} rad/s/sqrt(Hz), bias {:.3g} rad/s; accelerometer "
+                    "{:.3g} m/s^2/sqrt(Hz)",
+                    check.rest_seconds,
+                    check.gyroscope_noise_density,
+                    check.gyroscope_bias.norm(),
+                    check.accelerometer_noise_density));
+  }
+  for (const std::string& note : recording.notes) Row("note", note);
+  for (const std::string& fault : InertialFaults(check, recording.calibration)) {
+    Row("imu fault", fault);
+  }
+}
+
+// Tells of the samples beside images. Those that cannot be read are a row, unless `wanted`: images
+// are of use without them.
+void PrintInertialOf(const DatasetInfo& info, const InertialOptions& options) {
+  const bool wanted = options.imu.has_value();
+  std::optional<InertialRecording> recording;
+  try {
+    recording = FindInertial(info.path, info.format, options);
+  } catch (const InputError& error) {
+    if (wanted) throw;
+    Row("imu", std::string("cannot be used: ") + error.what());
+    return;
+  }
+  if (recording) PrintInertial(*recording);
+  if (!recording && wanted) {
+    throw InputError(info.path.string() + ": expected samples of an inertial sensor, found none");
+  }
+}
+
 // Returns the fault of an unusable frame; nullopt if it is usable.
 std::optional<std::string> FaultOf(const Dataset& dataset, std::size_t i) {
   const Expected<SensorFrame, ImageFailure> frame = dataset.Read(i);
@@ -188,6 +252,13 @@ int InfoCommand(std::span<const std::string> arguments) {
   if (const auto text = line.Value("--format"); text && *text != "auto") {
     options.format = ParseChoice<DatasetFormat>("--format", *text);
   }
+  const std::string imu = line.Value("--imu").value_or("auto");
+  InertialOptions inertial{std::nullopt, options.camera, options.topics};
+  if (imu != "auto" && imu != "off") inertial.imu = imu;
+  if (imu != "off" && IsInertialAlone(line.Positional(0))) {
+    PrintInertial(OpenInertialAlone(line.Positional(0), inertial));
+    return 0;
+  }
   const std::unique_ptr<Dataset> dataset = OpenDataset(line.Positional(0), options);
   const DatasetInfo& info = dataset->info();
   Row("name", info.name);
@@ -198,6 +269,7 @@ int InfoCommand(std::span<const std::string> arguments) {
   PrintTimes(info);
   PrintCalibration(info);
   PrintGroundTruth(info);
+  if (imu != "off") PrintInertialOf(info, inertial);
   for (const std::string& note : info.notes) Row("note", note);
   if (const auto fault = PairFaultOf(*dataset)) Row("note", *fault);
   if (line.Has("--check")) CheckImages(*dataset);

@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/io/datasets/dataset.h"
 #include "plumbline/io/datasets/open_dataset.h"
+#include "plumbline/io/inertial/inertial_recording.h"
 
 #include "fuzz/input_folder.h"
 #include <algorithm>
@@ -28,6 +29,10 @@ inline void OpenInvented(std::string_view bytes, const char* name, DatasetFormat
       for (std::size_t i = 0; i < std::min(dataset->size(), kMost); ++i) (void)dataset->Read(i);
     } catch (const InputError&) {
     }
+  }
+  try {
+    (void)FindInertial(path, format, {});
+  } catch (const InputError&) {
   }
 }
 

@@ -31,7 +31,7 @@ LAYERS = {
                      "mapping"],
     "slam": ["base", "geometry", "image", "features", "optimization", "line_cutting", "map",
              "matching", "initialization", "tracking", "mapping", "loop_closing"],
-    "io": ["base", "geometry", "image", "features", "map"],
+    "io": ["base", "geometry", "inertial", "image", "features", "map"],
     "report": ["base", "geometry", "image", "features", "map", "io", "slam"],
     "viewer": ["base", "geometry", "image", "features", "map", "slam", "io"],
     "worlds": ["base", "geometry", "image", "io"],

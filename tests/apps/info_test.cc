@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/commands.h"
 #include "tests/io/scratch_folder.h"
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,60 @@ TEST(Info, TellsWhatIsUsedOfALens) {
               HasSubstr("as 41x41 pixels of 100 % of the resolution in the middle\n"));
   EXPECT_THAT(info("[22, 22, 39.5, 29.5]\n"),
               HasSubstr("no distortion\nused view     90 x 90 of "));
+}
+
+// Samples of a sensor that lies still, at 200 Hz for 4 s, with a pause of 0.1 s. The file has noise
+// that is ten times as small.
+std::string StillSamples() {
+  std::string rows = "#timestamp [ns],w,w,w,a,a,a\n";
+  for (int i = 0; i < 800; ++i) {
+    if (i >= 700 && i < 719) continue;
+    const double noise = i % 2 == 0 ? 1 : -1;
+    rows += std::to_string(1 + std::int64_t{i} * 5'000'000) + "," + std::to_string(0.003 * noise) +
+            ",0,0,0,0," + std::to_string(9.81 + 0.01 * noise) + "\n";
+  }
+  return rows;
+}
+
+TEST(Info, TellsOfAnInertialSensor) {
+  const ScratchFolder folder;
+  const std::string camera = "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrate_hz: 3\n";
+  const std::string noise =
+      "  gyroscope_noise_density: 1.7e-5\n  gyroscope_random_walk: 1.9e-5\n"
+      "  accelerometer_noise_density: 6.0e-4\n  accelerometer_random_walk: 3.0e-3\n";
+  folder.Write("camera.yaml", camera + "imu:\n" + noise);
+  folder.Write("0.pgm", "P5\n8 6\n255\n" + std::string(48, 'a'));
+  EXPECT_THAT(Info({folder.path().string()}), testing::Not(HasSubstr("imu")));
+  const std::string rows = folder.Write("imu.csv", StillSamples()).string();
+  const std::string file = (folder / "camera.yaml").string();
+  const std::string out = Info({folder.path().string()});
+  EXPECT_THAT(out, HasSubstr("imu           781 samples in 3.995 s, 200 Hz, jitter 0 ms; " + rows));
+  EXPECT_THAT(out, HasSubstr("imu file      " + file + ": noise; missing: place\n"));
+  EXPECT_THAT(out, HasSubstr("imu fault     1 gaps above 1.5 intervals, the longest 0.100 s\n"));
+  EXPECT_THAT(out, HasSubstr("imu fault     gyroscope_noise_density is 1.7e-05, but "));
+  EXPECT_THAT(Info({folder.path().string(), "--imu", "off"}), testing::Not(HasSubstr("imu  ")));
+  // Also without any image.
+  EXPECT_THAT(Info({rows}), HasSubstr("imu           781 samples"));
+}
+
+// Images are of use without samples, unless these were asked for.
+TEST(Info, TellsThatSamplesCannotBeUsed) {
+  const ScratchFolder folder;
+  folder.Write("camera.yaml", "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrate_hz: 3\n");
+  folder.Write("0.pgm", "P5\n8 6\n255\n" + std::string(48, 'a'));
+  const std::string imu = folder.Write("noise.yaml", "imu:\n  rate_hz: 200\n").string();
+  const std::string path = folder.path().string();
+  EXPECT_EQ(MessageOf([&] {
+              InfoCommand(std::vector<std::string>{path, "--imu", imu});
+            }),
+            path + ": expected samples of an inertial sensor, found none");
+  const std::string rows = folder.Write("imu.csv", "1,2,3\n").string();
+  const std::string message =
+      rows +
+      ":1: expected a time stamp, three rates in rad/s and three forces in m/s^2, found 3 "
+      "columns";
+  EXPECT_THAT(Info({path}), HasSubstr("imu           cannot be used: " + message));
+  EXPECT_EQ(MessageOf([&] { InfoCommand(std::vector<std::string>{path, "--imu", imu}); }), message);
 }
 
 }  // namespace info_test

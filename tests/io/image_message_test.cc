@@ -105,7 +105,9 @@ TEST(FormOf, KnowsTypesByTheirEncoding) {
   EXPECT_EQ(kind("sensor_msgs/msg/CompressedImage", "cdr"), MessageKind::kCompressedImage);
   EXPECT_EQ(kind("foxglove.CameraCalibration", "protobuf"), MessageKind::kCalibration);
   EXPECT_EQ(kind("sensor_msgs/msg/Image", "ros1"), std::nullopt);
-  EXPECT_EQ(kind("sensor_msgs/Imu", "ros1"), std::nullopt);
+  EXPECT_EQ(kind("sensor_msgs/Imu", "ros1"), MessageKind::kInertial);
+  EXPECT_EQ(kind("sensor_msgs/msg/Imu", "cdr"), MessageKind::kInertial);
+  EXPECT_EQ(kind("sensor_msgs/MagneticField", "ros1"), std::nullopt);
   EXPECT_EQ(kind("foxglove.RawImage", "json"), std::nullopt);
 }
 

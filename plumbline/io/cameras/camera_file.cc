@@ -100,7 +100,8 @@ Calibration ReadOurs(const YamlSection& root) {
                           "right",
                           "right_from_left",
                           "baseline",
-                          "body_from_left"}) {
+                          "body_from_left",
+                          "imu"}) {
     known.emplace_back(key);
   }
   root.RejectUnknown(known);

@@ -26,6 +26,7 @@ namespace plumbline {
 //   right_from_left: [16 numbers]               # 4x4, row by row; or for a rectified pair:
 //   baseline: 0.11                              # metres
 //   body_from_left: [16 numbers]                # optional, body = frame of the ground truth
+//   imu:                                        # optional, see inertial_calibration_file.h
 //
 // or a file of another program, recognized by its keys: EuRoC's sensor.yaml (one camera), Kalibr's
 // camchain.yaml, settings of ORB-SLAM2 and 3 and of stella_vslam, Basalt's and CamOdoCal's files,

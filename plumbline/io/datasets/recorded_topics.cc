@@ -77,7 +77,7 @@ class TopicCollector {
             const StoredMessage& place,
             std::span<const std::uint8_t> bytes) {
     const std::optional<MessageForm> form = FormOf(channel);
-    if (!form) return;
+    if (!form || form->kind == MessageKind::kInertial) return;
     if (form->kind == MessageKind::kCalibration) {
       if (calibrations_.contains(channel.topic)) return;
       const auto camera = ParseCalibration(*form, bytes);
@@ -225,13 +225,28 @@ std::vector<const RecordedTopic*> Named(const RecordedTopics& topics,
   return found;
 }
 
+// The names but those of inertial sensors (inertial_recording.h).
+std::vector<std::string> WithoutInertial(const RecordedTopics& topics,
+                                         const std::vector<std::string>& names) {
+  std::vector<std::string> others;
+  for (const std::string& name : names) {
+    const auto& channels = topics.file->channels();
+    const bool inertial = std::any_of(channels.begin(), channels.end(), [&](const Channel& c) {
+      const auto form = FormOf(c);
+      return c.topic == name && form && form->kind == MessageKind::kInertial;
+    });
+    if (!inertial) others.push_back(name);
+  }
+  return others;
+}
+
 void CheckThereAreImages(const RecordedTopics& topics) {
   if (!topics.images.empty()) return;
   std::set<std::string> types, without;
   constexpr std::size_t kMost = 20;
   for (const Channel& channel : topics.file->channels()) {
     const auto form = FormOf(channel);
-    if (form && form->kind != MessageKind::kCalibration) {
+    if (form && form->kind != MessageKind::kCalibration && form->kind != MessageKind::kInertial) {
       without.insert(Printable(channel.topic));
     } else if (types.size() < kMost) {
       types.insert(Printable(channel.type));
@@ -380,7 +395,8 @@ ChosenTopics ChooseTopics(const RecordedTopics& topics,
                           const std::vector<std::string>& named,
                           std::optional<SensorKind> sensor) {
   CheckThereAreImages(topics);
-  if (!named.empty()) return InNamedOrder(topics, Named(topics, named), sensor);
+  const std::vector<std::string> of_images = WithoutInertial(topics, named);
+  if (!of_images.empty()) return InNamedOrder(topics, Named(topics, of_images), sensor);
   return FromAll(topics, WithoutCopies(topics.images));
 }
 

@@ -63,9 +63,9 @@ struct ChosenTopics {
   const RecordedTopic* depth = nullptr;  // null if there is none
 };
 
-// Selects the named topics, in the order left, right, depth; or by default one camera, or a pair by
-// its names (cam0 and cam1, left and right, infra1 and infra2), and one topic of depth. Of an image
-// sent in several forms the uncompressed one is taken.
+// Selects the named topics, in the order left, right, depth, without those of inertial sensors; or
+// by default one camera, or a pair by its names (cam0 and cam1, left and right, infra1 and infra2),
+// and one topic of depth. Of an image sent in several forms the uncompressed one is taken.
 //
 // Images of 16 bits are grey if two topics of them are the only pair by name, and if they are named
 // alone, or first. A second topic of them is then depth if `sensor` is RGB-D or its name says so.

@@ -12,14 +12,16 @@ struct KnownType {
   MessageKind kind;
 };
 
-constexpr std::array<KnownType, 3> kRosTypes = {
+constexpr std::array<KnownType, 4> kRosTypes = {
     {{"sensor_msgs/Image", MessageKind::kImage},
      {"sensor_msgs/CompressedImage", MessageKind::kCompressedImage},
-     {"sensor_msgs/CameraInfo", MessageKind::kCalibration}}};
-constexpr std::array<KnownType, 3> kRos2Types = {
+     {"sensor_msgs/CameraInfo", MessageKind::kCalibration},
+     {"sensor_msgs/Imu", MessageKind::kInertial}}};
+constexpr std::array<KnownType, 4> kRos2Types = {
     {{"sensor_msgs/msg/Image", MessageKind::kImage},
      {"sensor_msgs/msg/CompressedImage", MessageKind::kCompressedImage},
-     {"sensor_msgs/msg/CameraInfo", MessageKind::kCalibration}}};
+     {"sensor_msgs/msg/CameraInfo", MessageKind::kCalibration},
+     {"sensor_msgs/msg/Imu", MessageKind::kInertial}}};
 constexpr std::array<KnownType, 3> kFoxgloveTypes = {
     {{"foxglove.RawImage", MessageKind::kImage},
      {"foxglove.CompressedImage", MessageKind::kCompressedImage},
@@ -28,7 +30,7 @@ constexpr std::array<KnownType, 3> kFoxgloveTypes = {
 struct KnownEncoding {
   std::string_view name;
   MessageEncoding encoding;
-  const std::array<KnownType, 3>& types;
+  std::span<const KnownType> types;
 };
 
 }  // namespace
@@ -47,7 +49,8 @@ std::optional<MessageForm> FormOf(const Channel& channel) {
 }
 
 std::optional<ImageMessage> ParseImage(MessageForm form, std::span<const std::uint8_t> bytes) {
-  PLUMBLINE_CHECK(form.kind != MessageKind::kCalibration, "an image is wanted");
+  PLUMBLINE_CHECK(form.kind == MessageKind::kImage || form.kind == MessageKind::kCompressedImage,
+                  "an image is wanted");
   const bool compressed = form.kind == MessageKind::kCompressedImage;
   if (form.encoding == MessageEncoding::kProtobuf) return ParseProtobufImage(compressed, bytes);
   return ParseRosImage(form.encoding == MessageEncoding::kCdr, compressed, bytes);

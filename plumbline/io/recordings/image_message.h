@@ -13,7 +13,7 @@
 
 namespace plumbline {
 
-enum class MessageKind { kImage, kCompressedImage, kCalibration };
+enum class MessageKind { kImage, kCompressedImage, kCalibration, kInertial };
 enum class MessageEncoding { kRos1, kCdr, kProtobuf };
 
 // Form of a channel's messages, as far as supported.
@@ -46,9 +46,17 @@ struct CalibrationMessage {
   std::uint32_t roi_x = 0, roi_y = 0, roi_width = 0, roi_height = 0;  // all 0: the whole image
 };
 
-// Returns the form of a channel's messages: sensor_msgs/Image, CompressedImage and CameraInfo of
-// ROS 1 and (with /msg/, as CDR) ROS 2, foxglove.RawImage, CompressedImage and CameraCalibration as
-// protobuf; nullopt for all others.
+// A measurement in the form of sensor_msgs/Imu, without its orientation.
+struct InertialMessage {
+  std::int64_t stamp_ns = 0;  // 0 if not set
+  std::array<double, 3> angular_rate{}, specific_force{};
+  // False where the covariance begins with -1, which marks what is not measured.
+  bool has_rate = true, has_force = true;
+};
+
+// Returns the form of a channel's messages: sensor_msgs/Image, CompressedImage, CameraInfo and Imu
+// of ROS 1 and (with /msg/, as CDR) ROS 2, foxglove.RawImage, CompressedImage and CameraCalibration
+// as protobuf; nullopt for all others.
 std::optional<MessageForm> FormOf(const Channel& channel);
 
 // Return nullopt if the bytes are no message of this form. `form` must be that of an image, or of a
@@ -66,6 +74,7 @@ std::optional<ImageMessage> ParseRosImage(bool cdr,
                                           std::span<const std::uint8_t> bytes);
 std::optional<CalibrationMessage> ParseRosCalibration(bool cdr,
                                                       std::span<const std::uint8_t> bytes);
+std::optional<InertialMessage> ParseRosInertial(bool cdr, std::span<const std::uint8_t> bytes);
 
 // Parse messages of Foxglove's schemas (foxglove.RawImage, CompressedImage, CameraCalibration) in
 // the wire format of Protocol Buffers (protobuf.dev/programming-guides/encoding). Unknown fields

@@ -111,4 +111,23 @@ std::optional<CalibrationMessage> ParseRosCalibration(bool cdr, ByteSpan bytes) 
   return fields.ok() ? std::optional(std::move(camera)) : std::nullopt;
 }
 
+std::optional<InertialMessage> ParseRosInertial(bool cdr, ByteSpan bytes) {
+  if (cdr && !IsLittleEndianCdr(bytes)) return std::nullopt;
+  constexpr int kOrientation = 4, kCovariance = 9;
+  FieldReader fields(cdr, bytes);
+  InertialMessage message;
+  message.stamp_ns = fields.ReadHeader().stamp_ns;
+  for (int i = 0; i < kOrientation + kCovariance; ++i) fields.F64();
+  // Returns false if the covariance marks the vector before it as not measured.
+  const auto read_vector = [&](std::array<double, 3>& vector) {
+    for (double& number : vector) number = fields.F64();
+    const double first = fields.F64();
+    for (int i = 1; i < kCovariance; ++i) fields.F64();
+    return first != -1;
+  };
+  message.has_rate = read_vector(message.angular_rate);
+  message.has_force = read_vector(message.specific_force);
+  return fields.ok() ? std::optional(message) : std::nullopt;
+}
+
 }  // namespace plumbline

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/inertial/inertial_recording.h"
+
+#include "plumbline/io/datasets/open_dataset.h"
+
+#include "tests/io/recorded_bag.h"
+#include "tests/io/scratch_folder.h"
+#include "tests/support/mcap_writer.h"
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace inertial_recording_test {
+
+const std::string kHeader = "#timestamp [ns],w_x,w_y,w_z,a_x,a_y,a_z\n";
+
+std::string Row(std::int64_t stamp_ns, double rate, double force) {
+  return std::to_string(stamp_ns) + "," + std::to_string(rate) + ",0,0,0,0," +
+         std::to_string(force) + "\n";
+}
+
+// A message whose rates and forces are given along x and z; nullopt: marked as not measured.
+std::string Message(bool cdr,
+                    std::int64_t stamp_ns,
+                    std::optional<double> rate,
+                    std::optional<double> force) {
+  RosFields fields(cdr);
+  fields.Header(stamp_ns, "imu");
+  for (const double q : {0, 0, 0, 1}) fields.F64(q);
+  for (int i = 0; i < 9; ++i) fields.F64(i == 0 ? -1 : 0);
+  const auto vector = [&](double x, double z, bool measured) {
+    for (const double number : {x, 0.0, z}) fields.F64(number);
+    for (int i = 0; i < 9; ++i) fields.F64(i == 0 && !measured ? -1 : 0);
+  };
+  vector(rate.value_or(0), 0, rate.has_value());
+  vector(0, force.value_or(0), force.has_value());
+  return fields.Take();
+}
+
+void AddSample(BagWriter& bag,
+               const std::string& topic,
+               std::int64_t stamp_ns,
+               std::optional<double> rate,
+               std::optional<double> force) {
+  bag.Add(topic, "sensor_msgs/Imu", stamp_ns + 9, Message(false, stamp_ns, rate, force));
+}
+
+TEST(ReadInertialRows, ReadsNanosecondsAndSeconds) {
+  const ScratchFolder folder;
+  const auto samples = ReadInertialRows(
+      folder.Write("a.csv", kHeader + Row(1403636579763555584, 0.5, 9.8) + "1.5,1,2,3,4,5,6\r\n"));
+  ASSERT_EQ(samples.size(), 2U);
+  EXPECT_EQ(samples[0].stamp_ns, 1403636579763555584);
+  EXPECT_EQ(samples[0].angular_rate, Eigen::Vector3d(0.5, 0, 0));
+  EXPECT_EQ(samples[0].specific_force, Eigen::Vector3d(0, 0, 9.8));
+  EXPECT_EQ(samples[1].stamp_ns, 1'500'000'000);
+  EXPECT_EQ(samples[1].specific_force, Eigen::Vector3d(4, 5, 6));
+}
+
+TEST(ReadInertialRows, RefusesMalformedRowsByTheirLine) {
+  const ScratchFolder folder;
+  struct Case {
+    std::string row, message;
+  };
+  const std::vector<Case> cases = {
+      {"1,2,3\n",
+       "expected a time stamp, three rates in rad/s and three forces in m/s^2, found 3 columns"},
+      {"x,1,2,3,4,5,6\n",
+       "expected a time stamp in whole nanoseconds, or in seconds with a decimal point, found "
+       "'x'"},
+      {"7,1,2,3,4,5,1e9\n", "expected rates in rad/s and forces in m/s^2, found '1e9'"}};
+  for (const auto& [row, message] : cases) {
+    const auto file = folder.Write("a.csv", kHeader + Row(1, 0, 9.8) + row);
+    EXPECT_EQ(MessageOf([&] { ReadInertialRows(file); }), file.string() + ":3: " + message);
+  }
+  const auto nan = folder.Write("a.csv", Row(1, 0, 9.8) + "2,nan,0,0,0,0,0\n");
+  EXPECT_TRUE(MessageOf([&] { ReadInertialRows(nan); }).starts_with(nan.string() + ":2: "));
+  const auto empty = folder.Write("a.csv", kHeader);
+  EXPECT_EQ(MessageOf([&] { ReadInertialRows(empty); }),
+            empty.string() + ": expected samples, found no rows");
+}
+
+TEST(FindInertial, ReadsFoldersAndTheirCalibration) {
+  const ScratchFolder folder;
+  EXPECT_FALSE(FindInertial(folder.path(), DatasetFormat::kTum, {}));
+  folder.Write("imu.csv", Row(10, 0, 9.8) + Row(20, 0, 9.8) + Row(15, 0, 9.8));
+  folder.Write(
+      "camera.yaml",
+      "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nimu:\n  time_offset: 0.5\n  rate_hz: 200\n");
+  const auto tum = FindInertial(folder.path(), DatasetFormat::kTum, {});
+  ASSERT_TRUE(tum);
+  EXPECT_EQ(tum->ordered.samples.size(), 2U);
+  EXPECT_EQ(tum->ordered.backward, 1U);
+  EXPECT_EQ(tum->calibration.time_offset, 0.5);
+  // What users name comes first.
+  const auto file = folder.Write("over.yaml", "imu:\n  time_offset: 0.25\n").string();
+  const auto over = FindInertial(folder.path(), DatasetFormat::kTum, {.imu = file});
+  EXPECT_EQ(over->calibration.time_offset, 0.25);
+  EXPECT_EQ(over->calibration.rate_hz, 200);
+}
+
+TEST(FindInertial, TurnsThePlacesOfEurocIntoOne) {
+  const ScratchFolder folder;
+  folder.Write("mav0/imu0/data.csv", Row(10, 0, 9.8) + Row(20, 0, 9.8));
+  const auto matrix = [](const std::string& x) {
+    return "T_BS:\n  cols: 4\n  rows: 4\n  data: [1, 0, 0, " + x +
+           ", 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n";
+  };
+  folder.Write("mav0/imu0/sensor.yaml",
+               matrix("0.3") +
+                   "rate_hz: 200\ngyroscope_noise_density: 1.7e-4\ngyroscope_random_walk: 1.9e-5\n"
+                   "accelerometer_noise_density: 2.0e-3\naccelerometer_random_walk: 3.0e-3\n");
+  folder.Write("mav0/cam0/sensor.yaml",
+               matrix("0.5") +
+                   "rate_hz: 20\nresolution: [752, 480]\ncamera_model: pinhole\nintrinsics: [458, "
+                   "457, 367, 248]\ndistortion_model: radial-tangential\ndistortion_coefficients: "
+                   "[-0.28, 0.07, 0.0002, 0.00002]\n");
+  const auto found = FindInertial(folder.path(), DatasetFormat::kEuroc, {});
+  ASSERT_TRUE(found && found->calibration.imu_from_left);
+  EXPECT_NEAR(found->calibration.imu_from_left->translation.x(), 0.2, 1e-12);
+  EXPECT_TRUE(found->calibration.noise);
+  EXPECT_TRUE(IsInertialAlone(folder / "mav0/imu0"));
+  EXPECT_FALSE(IsInertialAlone(folder.path()));
+  const InertialRecording alone = OpenInertialAlone(folder / "mav0/imu0", {});
+  EXPECT_EQ(alone.ordered.samples.size(), 2U);
+  EXPECT_TRUE(alone.calibration.imu_from_left);
+}
+
+TEST(FindInertial, ReadsTheTopicOfABag) {
+  const ScratchFolder folder;
+  BagWriter bag = StereoBag();
+  for (int i = 0; i < 5; ++i) AddSample(bag, "/imu0", i * 5'000'000 + 1, 0.1 * i, 9.8);
+  bag.Add("/imu0", "sensor_msgs/Imu", 7, "short");
+  const auto file = Write(folder, std::move(bag));
+  const auto found = FindInertial(file, DatasetFormat::kBag, {});
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->ordered.samples.size(), 5U);
+  EXPECT_EQ(found->ordered.samples[2].stamp_ns, 10'000'001);
+  EXPECT_EQ(found->ordered.samples[2].angular_rate.x(), 0.2);
+  EXPECT_EQ(found->ordered.samples[2].specific_force.z(), 9.8);
+  EXPECT_EQ(found->source, "/imu0 of " + file.string());
+  EXPECT_EQ(found->notes,
+            (std::vector<std::string>{"1 messages of /imu0 are no measurements and are left out"}));
+  // The images are those of before, also where users name the topic of the sensor.
+  EXPECT_EQ(OpenDataset(file, {})->size(), 2U);
+  DatasetOptions named;
+  named.topics = {"/imu0"};
+  EXPECT_EQ(OpenDataset(file, named)->size(), 2U);
+}
+
+TEST(FindInertial, JoinsAGyroscopeAndAnAccelerometerApart) {
+  const ScratchFolder folder;
+  BagWriter bag = StereoBag();
+  for (int i = 0; i <= 40; ++i) {
+    AddSample(bag, "/gyro/sample", i * 2'500'000 + 1, 0.01 * i + 0.01, std::nullopt);
+  }
+  for (int i = 0; i <= 10; ++i) AddSample(bag, "/accel/sample", i * 10'000'000 + 1, {}, 9 + i);
+  const auto found = FindInertial(Write(folder, std::move(bag)), DatasetFormat::kBag, {});
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->ordered.samples.size(), 41U);
+  EXPECT_NEAR(found->ordered.samples[6].angular_rate.x(), 0.07, 1e-12);
+  EXPECT_NEAR(found->ordered.samples[6].specific_force.z(), 10.5, 1e-6);
+}
+
+TEST(FindInertial, TakesOneOfSeveralSensors) {
+  const ScratchFolder folder;
+  BagWriter bag = StereoBag();
+  for (int i = 0; i < 5; ++i) {
+    AddSample(bag, "/a/imu", i * 5'000'000 + 1, 0.1, 9.8);
+    AddSample(bag, "/b/imu", i * 5'000'000 + 1, 0.2, 9.8);
+  }
+  const auto file = Write(folder, std::move(bag));
+  const auto first = FindInertial(file, DatasetFormat::kBag, {});
+  EXPECT_EQ(first->ordered.samples[0].angular_rate.x(), 0.1);
+  EXPECT_EQ(first->notes.size(), 1U);
+  const auto named = FindInertial(file, DatasetFormat::kBag, {.topics = {"/b/imu"}});
+  EXPECT_EQ(named->ordered.samples[0].angular_rate.x(), 0.2);
+  EXPECT_TRUE(named->notes.empty());
+}
+
+}  // namespace inertial_recording_test
+}  // namespace plumbline
