@@ -34,7 +34,7 @@ LAYERS = {
     "io": ["base", "geometry", "inertial", "image", "features", "map"],
     "report": ["base", "geometry", "image", "features", "map", "io", "slam"],
     "viewer": ["base", "geometry", "image", "features", "map", "slam", "io"],
-    "worlds": ["base", "geometry", "image", "io"],
+    "worlds": ["base", "geometry", "inertial", "image", "io"],
     "line_maps": ["base", "geometry", "io", "report", "worlds"],
     "line_rivals": ["base", "geometry", "map", "matching", "optimization", "tracking"],
     "rivals": ["base", "geometry", "features", "image", "map", "matching", "optimization",

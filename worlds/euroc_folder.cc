@@ -4,6 +4,7 @@
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/cameras/camera_file.h"
 #include "plumbline/io/export/png.h"
+#include "plumbline/io/inertial/inertial_calibration_file.h"
 #include "worlds/overlay.h"
 #include "worlds/sequence_formats.h"
 
@@ -56,7 +57,8 @@ std::string ImageList(const SyntheticSequence& sequence) {
 
 // The bias of the inertial sensor at a time, the last sample's before it.
 const ImuSample& BiasAt(const std::vector<ImuSample>& biases, double time, double rate_hz) {
-  const auto index = static_cast<std::size_t>(std::max(0.0, time * rate_hz + 1e-6));
+  const double since_first = time - biases.front().time;
+  const auto index = static_cast<std::size_t>(std::max(0.0, since_first * rate_hz + 1e-6));
   return biases[std::min(index, biases.size() - 1)];
 }
 
@@ -163,7 +165,9 @@ void WriteEurocFolder(const SyntheticSequence& sequence,
     WriteGrayPng(folder / "mask_text.png", TextMask(left.width(), left.height()));
   }
   if (sequence.options().lens != SynthLens::kEuroc) {
-    WriteFileAtomically(folder / "camera.yaml", FormatCamera(sequence.calibration()));
+    WriteFileAtomically(
+        folder / "camera.yaml",
+        FormatCamera(sequence.calibration()) + FormatInertialCalibration(InertialOf(sequence)));
   }
   for (int camera = 0; camera < 2; ++camera) {
     if (sequence.options().lens == SynthLens::kEuroc) {

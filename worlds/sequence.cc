@@ -277,6 +277,7 @@ Trajectory SyntheticSequence::GroundTruth(int per_frame) const {
 ImuRecording SyntheticSequence::Imu() const {
   ImuModel model;
   model.rate_hz = options_.imu_rate_hz;
+  model.faults = options_.imu;
   return RecordImu([this](double time) { return WorldFromBody(time); },
                    TimeOf(size() - 1),
                    model,

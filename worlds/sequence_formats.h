@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/inertial/inertial_calibration.h"
 #include "worlds/sequence.h"
 
 #include <filesystem>
@@ -19,6 +20,10 @@ std::ostringstream TextStream(int digits);
 
 // A row of inertial samples: stamp [ns], rates, forces.
 std::string ImuCsv(const SyntheticSequence& sequence, const std::vector<ImuSample>& samples);
+
+// The calibration of the inertial sensor as its maker would give it: its place, noise and ranges,
+// not what imu_noise and ImuFaults make of them, nor the offset of its clock.
+InertialCalibration InertialOf(const SyntheticSequence& sequence);
 
 // Images come first, one frame after the other on `threads` threads with `done(frame)` after each;
 // the lists that name them last.

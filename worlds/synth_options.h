@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/base/options.h"
+#include "worlds/imu.h"
 
 #include <array>
 #include <cstdint>
@@ -72,6 +73,7 @@ struct SynthOptions {
   bool person = false;  // somebody who walks by in half of the images
   double imu_rate_hz = 200;
   double imu_noise = 1;
+  ImuFaults imu;
   double texel = 0.7;           // pixels
   double finest_texel = 0.002;  // metres
   std::uint64_t seed = 1;
@@ -118,6 +120,7 @@ void VisitFields(Visitor&& visit, SynthOptions& o) {
         "somebody walks by in half of the images; mask0 and mask1 are black there");
   visit("imu_rate_hz", o.imu_rate_hz, "samples of the inertial sensor per second", Range{1, 2000});
   visit("imu_noise", o.imu_noise, "of the inertial sensor, 1 as in EuRoC, 0 none", Range{0, 100});
+  visit("imu", o.imu, "what the inertial sensor does beside noise");
   visit("texel", o.texel, "texture cell [px] where the path comes closest", Range{0.2, 50});
   visit("finest_texel", o.finest_texel, "but no smaller than this [m]", Range{0.0005, 1});
   visit("seed", o.seed, "seed of textures, furniture, path and noise");

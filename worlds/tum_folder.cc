@@ -3,6 +3,7 @@
 #include "plumbline/base/parallel.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/export/png.h"
+#include "plumbline/io/inertial/inertial_calibration_file.h"
 #include "plumbline/io/trajectory_io.h"
 #include "worlds/overlay.h"
 #include "worlds/sequence_formats.h"
@@ -57,7 +58,8 @@ std::string CameraYaml(const SyntheticSequence& sequence) {
     text << (i == 0 ? "distortion_coefficients: [" : ", ") << k.distortion[i];
   }
   if (form.most > 0) text << "]\n";
-  text << "rate_hz: " << *calibration.rate_hz << "\ndepth_factor: " << kDepthFactor << '\n';
+  text << "rate_hz: " << *calibration.rate_hz << "\ndepth_factor: " << kDepthFactor << '\n'
+       << FormatInertialCalibration(InertialOf(sequence));
   return text.str();
 }
 

@@ -153,6 +153,23 @@ std::string ImuCsv(const SyntheticSequence& sequence, const std::vector<ImuSampl
   return text.str();
 }
 
+InertialCalibration InertialOf(const SyntheticSequence& sequence) {
+  const ImuModel model;
+  const ImuFaults& faults = sequence.options().imu;
+  InertialCalibration calibration;
+  calibration.imu_from_left = sequence.calibration().body_from_left;
+  calibration.rate_hz = sequence.options().imu_rate_hz;
+  InertialNoise noise;
+  noise.gyroscope_noise_density = model.gyroscope_density;
+  noise.gyroscope_random_walk = model.gyroscope_walk;
+  noise.accelerometer_noise_density = model.accelerometer_density;
+  noise.accelerometer_random_walk = model.accelerometer_walk;
+  if (faults.rate_range > 0) noise.gyroscope_range = faults.rate_range;
+  if (faults.force_range > 0) noise.accelerometer_range = faults.force_range;
+  calibration.noise = noise;
+  return calibration;
+}
+
 void CheckSequenceFolder(const fs::path& folder) {
   (void)HasSequence(folder);
   MakeFolder(folder);

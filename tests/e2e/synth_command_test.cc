@@ -122,6 +122,23 @@ TEST(SynthCommand, KilledInTheMiddleLeavesNothingWhole) {
   EXPECT_THAT(info.out, HasSubstr("2"));
 }
 
+// In both formats, with the calibration that the file of a sensor tells.
+TEST(SynthCommand, RendersAnInertialSensorAsItIs) {
+  const ScratchFolder folder;
+  for (const std::string format : {"euroc", "tum"}) {
+    const fs::path out = folder / format;
+    const std::string call = "synth room --set frames=6 --set rate_hz=1 --set imu.gap_ms=500 " +
+                             std::string("--set imu.margin_s=0.5 --format ") + format + " --out " +
+                             Quoted(out) + kSmall;
+    ASSERT_EQ(RunProgram(folder, call).code, 0);
+    const Outcome info = RunProgram(folder, "info " + Quoted(out));
+    EXPECT_EQ(info.code, 0) << info.err;
+    EXPECT_THAT(info.out, HasSubstr(" samples in 6.000 s, 200 Hz, jitter 0 ms; "));
+    EXPECT_THAT(info.out, HasSubstr(": place, noise; 0.0"));
+    EXPECT_THAT(info.out, HasSubstr("gaps above 1.5 intervals, the longest 0.5"));
+  }
+}
+
 TEST(SynthCommand, ListsWorldsAndTheirOptions) {
   const ScratchFolder folder;
   const Outcome all = RunProgram(folder, "synth --list");

@@ -4,6 +4,7 @@
 
 #include "worlds/path.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -74,6 +75,73 @@ TEST(RecordImu, NoiseHasItsDensityAndBiasesWalk) {
   EXPECT_NEAR(std::sqrt(walk / count),
               model.gyroscope_walk / std::sqrt(200),
               0.03 * model.gyroscope_walk / std::sqrt(200));
+}
+
+// A model with one fault.
+template <class T>
+ImuModel With(T ImuFaults::*fault, T value) {
+  ImuModel model;
+  model.faults.*fault = value;
+  return model;
+}
+
+TEST(RecordImu, BiasesAtTurnOnAreConstant) {
+  const auto still = [](double) { return Rigid3{}; };
+  const ImuRecording recording = RecordImu(still, 2, With(&ImuFaults::bias, 1.0), 0, 1);
+  const Vector3d rate = recording.noisy.front().angular_rate;
+  const Vector3d force = recording.noisy.front().specific_force - Vector3d(0, 0, 9.81);
+  EXPECT_GT(rate.norm(), 0.02);
+  EXPECT_LT(rate.norm(), 0.3);
+  EXPECT_GT(force.norm(), 0.04);
+  EXPECT_LT(force.norm(), 0.6);
+  EXPECT_EQ(recording.noisy.back().angular_rate, rate);
+  EXPECT_EQ(recording.biases.back().angular_rate, rate);
+  EXPECT_NE(RecordImu(still, 2, With(&ImuFaults::bias, 1.0), 0, 2).noisy.front().angular_rate,
+            rate);
+}
+
+TEST(RecordImu, MeansAreThoseOfTheInterval) {
+  // Turning at 10 cos(100 t) rad/s: over 5 ms the mean falls short of the instant by sinc(0.25).
+  const auto shaken = [](double t) {
+    return Rigid3{ExpSo3({0, 0, 0.1 * std::sin(100 * t)}), Vector3d::Zero()};
+  };
+  const ImuRecording recording = RecordImu(shaken, 1, With(&ImuFaults::average, true), 0, 1);
+  for (std::size_t i = 0; i < recording.ideal.size(); ++i) {
+    EXPECT_NEAR(recording.noisy[i].angular_rate.z(),
+                recording.ideal[i].angular_rate.z() * std::sin(0.25) / 0.25,
+                0.01);
+  }
+}
+
+TEST(RecordImu, StampsAreOffAndSamplesMissing) {
+  const ImuRecording offset = RecordImu(OnCircle, 10, With(&ImuFaults::offset_ms, -12.0), 1, 1);
+  EXPECT_NEAR(offset.noisy.front().time, -0.012, 1e-12);
+  EXPECT_EQ(offset.ideal.front().time, 0);
+  const ImuRecording jitter = RecordImu(OnCircle, 10, With(&ImuFaults::jitter_ms, 2.0), 1, 1);
+  double most = 0;
+  for (std::size_t i = 0; i < jitter.noisy.size(); ++i) {
+    most = std::max(most, std::abs(jitter.noisy[i].time - jitter.ideal[i].time));
+  }
+  EXPECT_GT(most, 1.9e-3);
+  EXPECT_LE(most, 2e-3);
+  const ImuRecording gaps = RecordImu(OnCircle, 10, With(&ImuFaults::gap_ms, 500.0), 1, 1);
+  EXPECT_NEAR(static_cast<double>(gaps.noisy.size()), 2001 - 5 * 100, 5);
+  const ImuRecording lost = RecordImu(OnCircle, 10, With(&ImuFaults::lost, 0.02), 1, 1);
+  EXPECT_NEAR(static_cast<double>(lost.noisy.size()), 2001 * 0.98, 20);
+  const ImuRecording margin = RecordImu(OnCircle, 10, With(&ImuFaults::margin_s, 0.5), 1, 1);
+  EXPECT_NEAR(margin.noisy.front().time, -0.5, 1e-12);
+  EXPECT_NEAR(margin.noisy.back().time, 10.5, 1e-9);
+}
+
+TEST(RecordImu, RangesClipAndAxesAreNotSquare) {
+  const ImuRecording narrow = RecordImu(OnCircle, 1, With(&ImuFaults::rate_range, 0.5), 0, 1);
+  EXPECT_EQ(narrow.noisy.front().angular_rate.z(), 0.5);
+  const ImuRecording weak = RecordImu(OnCircle, 1, With(&ImuFaults::force_range, 9.0), 0, 1);
+  EXPECT_EQ(weak.noisy.front().specific_force.z(), 9.0);
+  const ImuRecording skewed = RecordImu(OnCircle, 1, With(&ImuFaults::axes, 1.0), 0, 1);
+  const Vector3d off = skewed.noisy.front().angular_rate - Vector3d(0, 0, 0.7);
+  EXPECT_GT(off.norm(), 1e-3);
+  EXPECT_LT(off.norm(), 0.02);
 }
 
 }  // namespace
