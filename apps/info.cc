@@ -3,9 +3,11 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/options.h"
 #include "plumbline/base/printable.h"
+#include "plumbline/base/units.h"
 #include "plumbline/features/stereo_pair_check.h"
 #include "plumbline/image/rectify.h"
 #include "plumbline/inertial/inertial_check.h"
+#include "plumbline/inertial/rate_alignment.h"
 #include "plumbline/io/cameras/camera_file.h"
 #include "plumbline/io/datasets/dataset.h"
 #include "plumbline/io/datasets/open_dataset.h"
@@ -179,9 +181,33 @@ void PrintInertial(const InertialRecording& recording) {
   }
 }
 
+// Compares place and clock of the sensor with the turns of ground truth.
+void PrintAlignment(const DatasetInfo& info, const InertialRecording& recording) {
+  if (!info.ground_truth || !info.has_calibration) return;
+  const Trajectory camera = info.ground_truth->OfCamera(info.calibration);
+  const auto alignment = AlignRates(camera, recording.ordered.samples);
+  if (!alignment) {
+    Row("imu to camera", "not known: the turns of poses and samples do not tell");
+    return;
+  }
+  const Eigen::Vector3d& bias = alignment->gyroscope_bias;
+  Row("imu to camera",
+      fmt::format("rotation known to {:.2g} degrees, clock {:+.2f} ms (+-{:.2g}), gyroscope's bias "
+                  "{:.3g} rad/s; by {} stretches of {}",
+                  alignment->rotation_sigma / kDegree,
+                  1e3 * alignment->time_offset,
+                  1e3 * alignment->time_offset_sigma,
+                  bias.norm(),
+                  alignment->intervals,
+                  info.ground_truth->path.string()));
+  for (const std::string& fault : AlignmentFaults(*alignment, recording.calibration)) {
+    Row("imu fault", fault);
+  }
+}
+
 // Tells of the samples beside images. Those that cannot be read are a row, unless `wanted`: images
 // are of use without them.
-void PrintInertialOf(const DatasetInfo& info, const InertialOptions& options) {
+void PrintInertialOf(const DatasetInfo& info, const InertialOptions& options, Rotation rotation) {
   const bool wanted = options.imu.has_value();
   std::optional<InertialRecording> recording;
   try {
@@ -191,7 +217,12 @@ void PrintInertialOf(const DatasetInfo& info, const InertialOptions& options) {
     Row("imu", std::string("cannot be used: ") + error.what());
     return;
   }
-  if (recording) PrintInertial(*recording);
+  if (recording) {
+    PrintInertial(*recording);
+    // The file of a sensor tells its place at the camera as delivered.
+    const bool as_delivered = rotation == Rotation::kAuto || rotation == Rotation::kNone;
+    if (as_delivered) PrintAlignment(info, *recording);
+  }
   if (!recording && wanted) {
     throw InputError(info.path.string() + ": expected samples of an inertial sensor, found none");
   }
@@ -269,7 +300,7 @@ int InfoCommand(std::span<const std::string> arguments) {
   PrintTimes(info);
   PrintCalibration(info);
   PrintGroundTruth(info);
-  if (imu != "off") PrintInertialOf(info, inertial);
+  if (imu != "off") PrintInertialOf(info, inertial, options.rotate);
   for (const std::string& note : info.notes) Row("note", note);
   if (const auto fault = PairFaultOf(*dataset)) Row("note", *fault);
   if (line.Has("--check")) CheckImages(*dataset);

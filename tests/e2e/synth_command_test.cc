@@ -139,6 +139,21 @@ TEST(SynthCommand, RendersAnInertialSensorAsItIs) {
   }
 }
 
+// `info` finds the offset of a clock that no file tells, by the turns of the true poses.
+TEST(SynthCommand, RendersAClockThatInfoFinds) {
+  const ScratchFolder folder;
+  const std::string call =
+      "synth room --set frames=20 --set rate_hz=2 --set imu.margin_s=0.5 --set imu.bias=1 "
+      "--set imu.offset_ms=-12 --out " +
+      Quoted(folder / "out") + kSmall;
+  ASSERT_EQ(RunProgram(folder, call).code, 0);
+  const Outcome info = RunProgram(folder, "info " + Quoted(folder / "out"));
+  EXPECT_EQ(info.code, 0) << info.err;
+  EXPECT_THAT(info.out, HasSubstr("imu to camera rotation known to 0.0"));
+  EXPECT_THAT(info.out, HasSubstr("imu fault     time_offset is 0.0000 s, but -0.0120 s by"));
+  EXPECT_THAT(info.out, testing::Not(HasSubstr("imu_from_left is turned")));
+}
+
 TEST(SynthCommand, ListsWorldsAndTheirOptions) {
   const ScratchFolder folder;
   const Outcome all = RunProgram(folder, "synth --list");
