@@ -2,78 +2,93 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "frame_subscriber.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
 namespace plumbline::ros_node {
-namespace {
 
-CameraNumbers NumbersOf(const std::string& topic, const sensor_msgs::CameraInfo& info) {
-  CameraNumbers numbers;
-  numbers.topic = topic;
-  numbers.width = info.width;
-  numbers.height = info.height;
-  numbers.distortion_model = info.distortion_model;
-  numbers.d.assign(info.D.begin(), info.D.end());
-  std::copy(info.K.begin(), info.K.end(), numbers.k.begin());
-  std::copy(info.R.begin(), info.R.end(), numbers.r.begin());
-  std::copy(info.P.begin(), info.P.end(), numbers.p.begin());
-  numbers.binning_x = info.binning_x;
-  numbers.binning_y = info.binning_y;
-  numbers.region = {info.roi.x_offset, info.roi.y_offset, info.roi.width, info.roi.height};
-  return numbers;
-}
-
-}  // namespace
-
-FrameSubscriber::FrameSubscriber(ros::NodeHandle& public_node,
+FrameSubscriber::FrameSubscriber(Transport& transport,
+                                 NodeLog& log,
                                  const NodeParameters& parameters,
                                  Take take)
-    : parameters_(parameters), take_(std::move(take)) {
+    : transport_(transport), log_(log), parameters_(parameters), take_(std::move(take)) {
   const bool stereo = parameters.IsStereo();
-  left_topic_ = public_node.resolveName(stereo ? "left/image" : "image");
+  left_ = TopicOf(stereo ? "left/image" : "image", parameters.image_transport);
   if (parameters.slam.camera.empty()) {
-    SubscribeInfo(public_node, stereo ? "left/camera_info" : "camera_info", left_camera_);
-    if (stereo) SubscribeInfo(public_node, "right/camera_info", right_camera_);
+    SubscribeInfo(stereo ? "left/camera_info" : "camera_info", left_camera_);
+    if (stereo) SubscribeInfo("right/camera_info", right_camera_);
   }
-  if (!parameters.IsMono()) {
-    second_topic_ = public_node.resolveName(stereo ? "right/image" : "depth");
-    SubscribePair(public_node);
+  if (parameters.IsMono()) {
+    SubscribeImages(left_, [this](const ImageMessage& image, const Bytes&) {
+      take_({{left_.name, image}, std::nullopt});
+    });
     return;
   }
-  const boost::function<void(const sensor_msgs::ImageConstPtr&)> take_one =
-      [this](const sensor_msgs::ImageConstPtr& image) {
-        take_({image, nullptr});
-      };
-  subscribers_.push_back(public_node.subscribe<sensor_msgs::Image>(
-      left_topic_, static_cast<std::uint32_t>(parameters.queue_size), take_one));
+  second_ = stereo ? TopicOf("right/image", parameters.image_transport)
+                   : TopicOf("depth", parameters.depth_transport);
+  pairs_.emplace(parameters.approximate_sync,
+                 static_cast<std::size_t>(parameters.queue_size),
+                 [this](const Bytes& left, const Bytes& second) {
+                   take_({{left_.name, *ParseImage(left_.form, left)},
+                          TopicImage{second_.name, *ParseImage(second_.form, second)}});
+                 });
+  SubscribeImages(left_, [this](const ImageMessage& image, const Bytes& bytes) {
+    pairs_->AddFirst(image.stamp_ns, bytes);
+  });
+  SubscribeImages(second_, [this](const ImageMessage& image, const Bytes& bytes) {
+    pairs_->AddSecond(image.stamp_ns, bytes);
+  });
 }
 
-void FrameSubscriber::SubscribePair(ros::NodeHandle& node) {
-  const auto queue = static_cast<std::uint32_t>(parameters_.queue_size);
-  left_.subscribe(node, left_topic_, queue);
-  second_.subscribe(node, second_topic_, queue);
-  if (parameters_.approximate_sync) {
-    approximate_ = std::make_unique<message_filters::Synchronizer<Approximate>>(
-        Approximate(queue), left_, second_);
-    approximate_->registerCallback(&FrameSubscriber::TakePair, this);
-  } else {
-    exact_ = std::make_unique<message_filters::Synchronizer<Exact>>(Exact(queue), left_, second_);
-    exact_->registerCallback(&FrameSubscriber::TakePair, this);
-  }
+FrameSubscriber::ImageTopic FrameSubscriber::TopicOf(const std::string& name,
+                                                     const std::string& image_transport) const {
+  ImageTopic topic;
+  topic.name = transport_.Resolve(name);
+  topic.form.encoding = transport_.UsesCdr() ? MessageEncoding::kCdr : MessageEncoding::kRos1;
+  topic.type = "sensor_msgs/Image";
+  if (image_transport == "raw") return topic;
+  topic.form.kind = MessageKind::kCompressedImage;
+  topic.type = "sensor_msgs/CompressedImage";
+  return topic;
 }
 
-void FrameSubscriber::SubscribeInfo(ros::NodeHandle& node,
-                                    const std::string& topic,
-                                    std::optional<CameraNumbers>& out) {
-  const std::string name = node.resolveName(topic);
-  const boost::function<void(const sensor_msgs::CameraInfoConstPtr&)> keep =
-      [name, &out](const sensor_msgs::CameraInfoConstPtr& info) { out = NumbersOf(name, *info); };
-  subscribers_.push_back(node.subscribe<sensor_msgs::CameraInfo>(name, 1, keep));
+void FrameSubscriber::SubscribeImages(const ImageTopic& topic,
+                                      std::function<void(const ImageMessage&, const Bytes&)> use) {
+  const bool is_left = &topic == &left_;
+  const std::string& image_transport =
+      is_left || parameters_.IsStereo() ? parameters_.image_transport : parameters_.depth_transport;
+  TopicSettings settings;
+  settings.name = image_transport == "raw" ? topic.name : topic.name + "/" + image_transport;
+  settings.type = topic.type;
+  settings.queue_size = parameters_.queue_size;
+  settings.sensor_data = true;
+  transport_.Subscribe(settings, [this, &topic, use = std::move(use)](const Bytes& bytes) {
+    const auto image = ParseImage(topic.form, bytes);
+    if (!image) return Refuse(topic.name, topic.type, bytes);
+    use(*image, bytes);
+  });
 }
 
-void FrameSubscriber::TakePair(const sensor_msgs::ImageConstPtr& left,
-                               const sensor_msgs::ImageConstPtr& second) {
-  take_({left, second});
+void FrameSubscriber::SubscribeInfo(const std::string& name, std::optional<TopicCamera>& camera) {
+  TopicSettings settings;
+  settings.name = transport_.Resolve(name);
+  settings.type = "sensor_msgs/CameraInfo";
+  settings.sensor_data = true;
+  transport_.Subscribe(settings, [this, settings, &camera](const Bytes& bytes) {
+    const auto message = ParseRosCalibration(transport_.UsesCdr(), bytes);
+    if (!message) return Refuse(settings.name, settings.type, bytes);
+    camera = TopicCamera{settings.name, *message};
+  });
+}
+
+void FrameSubscriber::Refuse(const std::string& topic,
+                             const std::string& type,
+                             const Bytes& bytes) {
+  log_.Throttled(
+      Severity::kError,
+      fmt::format("a message is left out: {}: expected a {}, found {} bytes that are none",
+                  topic,
+                  type,
+                  bytes.size()));
 }
 
 std::optional<FrameSubscriber::Cameras> FrameSubscriber::FindCameras() const {

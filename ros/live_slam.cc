@@ -61,8 +61,10 @@ MapView ViewOf(const Map& map, const Eigen::Quaterniond& rectified_from_left) {
   return view;
 }
 
+}  // namespace
+
 // One run of the camera: a System with its Pipeline.
-class Session {
+class LiveSlam::Session {
  public:
   using Observer = std::function<void(const FrameRecord&, bool corrected)>;
 
@@ -86,53 +88,17 @@ class Session {
   Pipeline pipeline_;           // last: its thread calls Observe
 };
 
-}  // namespace
+LiveSlam::LiveSlam(const LiveSlamSettings& settings, Observer observer)
+    : sensor_(ParseChoice<SensorKind>("sensor", settings.sensor)),
+      rectified_(settings.rectified),
+      options_(ReadOptions(settings)),
+      calibration_(FindCalibration(settings, sensor_)),
+      observer_(std::move(observer)) {}
+LiveSlam::~LiveSlam() = default;
 
-class LiveSlam::Implementation {
- public:
-  Implementation(const LiveSlamSettings& settings, LiveSlam::Observer observer)
-      : sensor_(ParseChoice<SensorKind>("sensor", settings.sensor)),
-        rectified_(settings.rectified),
-        options_(ReadOptions(settings)),
-        calibration_(FindCalibration(settings, sensor_)),
-        observer_(std::move(observer)) {}
-
-  bool IsCalibrated() const { return calibration_.has_value(); }
-  void SetCameras(const CameraNumbers& left,
-                  const std::optional<CameraNumbers>& right,
-                  const std::string& image_topic);
-  std::optional<double> Feed(std::int64_t stamp_ns, const RawImage& left, const RawImage* second);
-  bool HasFrames() const { return session_ && has_frames_; }
-  void ViewMap(std::function<void(MapView)> take);
-  std::string Save(const std::string& path);
-  std::vector<std::string> Load(const std::string& path, bool localize);
-  void Reset();
-
- private:
-  SensorFrame FrameOf(const RawImage& left, const RawImage* second) const;
-  std::unique_ptr<Session> MakeSession();
-  std::unique_ptr<Session> Begin();
-  void Observe(const FrameRecord& record, bool corrected);
-  std::int64_t StampAsFed(std::int64_t stamp_ns);
-
-  SensorKind sensor_;
-  std::optional<bool> rectified_;
-  SlamOptions options_;
-  std::optional<Calibration> calibration_;
-  LiveSlam::Observer observer_;
-  std::optional<SavedAtlas> loaded_;  // to begin with
-  bool localize_ = false;
-  std::optional<std::string> unusable_;  // why no session could begin, where that was tried
-  StampContinuity continuity_;
-  bool has_frames_ = false;
-  std::mutex stamps_mutex_;
-  std::map<std::int64_t, std::int64_t> stamps_;  // ours to those as fed, of frames that are not out
-  std::unique_ptr<Session> session_;  // null until the first frame; last: its threads call Observe
-};
-
-void LiveSlam::Implementation::SetCameras(const CameraNumbers& left,
-                                          const std::optional<CameraNumbers>& right,
-                                          const std::string& image_topic) {
+void LiveSlam::SetCameras(const TopicCamera& left,
+                          const std::optional<TopicCamera>& right,
+                          const std::string& image_topic) {
   if ((sensor_ == SensorKind::kStereo) != right.has_value()) {
     throw InputError("cameras: expected two for stereo and one otherwise");
   }
@@ -140,10 +106,9 @@ void LiveSlam::Implementation::SetCameras(const CameraNumbers& left,
   calibration_ = CalibrationOf(left, right, rectified, sensor_ == SensorKind::kRgbd);
 }
 
-std::optional<double> LiveSlam::Implementation::Feed(std::int64_t stamp_ns,
-                                                     const RawImage& left,
-                                                     const RawImage* second) {
+std::optional<double> LiveSlam::Feed(const TopicImage& left, const TopicImage* second) {
   if (unusable_) throw InputError(*unusable_);
+  const std::int64_t stamp_ns = left.message.stamp_ns;
   SensorFrame frame = FrameOf(left, second);
   if (!session_) session_ = Begin();
   const StampContinuity::Stamp next = continuity_.Next(stamp_ns);
@@ -158,7 +123,7 @@ std::optional<double> LiveSlam::Implementation::Feed(std::int64_t stamp_ns,
   return 1e-9 * static_cast<double>(*next.jumped_back_ns);
 }
 
-SensorFrame LiveSlam::Implementation::FrameOf(const RawImage& left, const RawImage* second) const {
+SensorFrame LiveSlam::FrameOf(const TopicImage& left, const TopicImage* second) const {
   if (!calibration_) throw InputError("expected a calibration before the first frame, found none");
   const ImageSize size{calibration_->left.width(), calibration_->left.height()};
   SensorFrame frame;
@@ -170,7 +135,7 @@ SensorFrame LiveSlam::Implementation::FrameOf(const RawImage& left, const RawIma
   return frame;
 }
 
-std::unique_ptr<Session> LiveSlam::Implementation::MakeSession() {
+std::unique_ptr<LiveSlam::Session> LiveSlam::MakeSession() {
   return std::make_unique<Session>(
       *calibration_, options_, [this](const FrameRecord& r, bool corrected) {
         Observe(r, corrected);
@@ -179,7 +144,7 @@ std::unique_ptr<Session> LiveSlam::Implementation::MakeSession() {
 
 // With what was loaded, or nothing. What was loaded stays where it does not fit, and is not tried
 // again: that would take longer than the time between two frames.
-std::unique_ptr<Session> LiveSlam::Implementation::Begin() {
+std::unique_ptr<LiveSlam::Session> LiveSlam::Begin() {
   std::unique_ptr<Session> session;
   try {
     session = MakeSession();
@@ -193,7 +158,7 @@ std::unique_ptr<Session> LiveSlam::Implementation::Begin() {
   return session;
 }
 
-void LiveSlam::Implementation::Observe(const FrameRecord& record, bool corrected) {
+void LiveSlam::Observe(const FrameRecord& record, bool corrected) {
   FrameOutcome outcome;
   outcome.stamp_ns = StampAsFed(record.stamp_ns);
   outcome.skipped = record.status == FrameStatus::kSkipped;
@@ -206,7 +171,7 @@ void LiveSlam::Implementation::Observe(const FrameRecord& record, bool corrected
 }
 
 // Forgets the frames before.
-std::int64_t LiveSlam::Implementation::StampAsFed(std::int64_t stamp_ns) {
+std::int64_t LiveSlam::StampAsFed(std::int64_t stamp_ns) {
   const std::lock_guard lock(stamps_mutex_);
   const auto found = stamps_.find(stamp_ns);
   PLUMBLINE_CHECK(found != stamps_.end(), "a frame came out that was not fed");
@@ -215,7 +180,7 @@ std::int64_t LiveSlam::Implementation::StampAsFed(std::int64_t stamp_ns) {
   return as_fed;
 }
 
-void LiveSlam::Implementation::ViewMap(std::function<void(MapView)> take) {
+void LiveSlam::ViewMap(std::function<void(MapView)> take) {
   if (!HasFrames()) return;
   session_->pipeline().Drain();
   System& system = session_->system();
@@ -228,7 +193,7 @@ void LiveSlam::Implementation::ViewMap(std::function<void(MapView)> take) {
   });
 }
 
-std::string LiveSlam::Implementation::Save(const std::string& path) {
+std::string LiveSlam::Save(const std::string& path) {
   if (!HasFrames()) throw InputError(path + ": expected frames before a map is saved, found none");
   session_->pipeline().Drain();
   SavedAtlas saved;
@@ -243,7 +208,7 @@ std::string LiveSlam::Implementation::Save(const std::string& path) {
                      map != nullptr ? map->lines().size() : 0);
 }
 
-std::vector<std::string> LiveSlam::Implementation::Load(const std::string& path, bool localize) {
+std::vector<std::string> LiveSlam::Load(const std::string& path, bool localize) {
   SavedAtlas saved = LoadAtlas(path);
   if (!calibration_) {
     loaded_ = std::move(saved);
@@ -259,37 +224,12 @@ std::vector<std::string> LiveSlam::Implementation::Load(const std::string& path,
   return remarks;
 }
 
-void LiveSlam::Implementation::Reset() {
+void LiveSlam::Reset() {
   session_.reset();
   loaded_.reset();
   unusable_.reset();
   localize_ = false;
   has_frames_ = false;
 }
-
-LiveSlam::LiveSlam(const LiveSlamSettings& settings, Observer observer)
-    : implementation_(std::make_unique<Implementation>(settings, std::move(observer))) {}
-LiveSlam::~LiveSlam() = default;
-
-bool LiveSlam::IsCalibrated() const { return implementation_->IsCalibrated(); }
-void LiveSlam::SetCameras(const CameraNumbers& left,
-                          const std::optional<CameraNumbers>& right,
-                          const std::string& image_topic) {
-  implementation_->SetCameras(left, right, image_topic);
-}
-std::optional<double> LiveSlam::Feed(std::int64_t stamp_ns,
-                                     const RawImage& left,
-                                     const RawImage* second) {
-  return implementation_->Feed(stamp_ns, left, second);
-}
-bool LiveSlam::HasFrames() const { return implementation_->HasFrames(); }
-void LiveSlam::ViewMap(std::function<void(MapView)> take) {
-  implementation_->ViewMap(std::move(take));
-}
-std::string LiveSlam::Save(const std::string& path) { return implementation_->Save(path); }
-std::vector<std::string> LiveSlam::Load(const std::string& path, bool localize) {
-  return implementation_->Load(path, localize);
-}
-void LiveSlam::Reset() { implementation_->Reset(); }
 
 }  // namespace plumbline::ros_node

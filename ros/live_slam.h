@@ -2,13 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/geometry/se3.h"
+#include "plumbline/geometry/calibration.h"
+#include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/live/stamp_continuity.h"
+#include "plumbline/map/saved_atlas.h"
+#include "plumbline/slam/options.h"
+#include "plumbline/slam/system.h"
 
-#include <array>
-#include <cstddef>
+#include "sensor_messages.h"
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,31 +22,7 @@
 
 #include <Eigen/Core>
 
-// What the node wants of the library, in C++17: the headers of ROS 1 do not compile as C++20, those
-// of the library do not as C++17, and these have to do with neither.
 namespace plumbline::ros_node {
-
-// An image as sensor_msgs/Image has it; the pixels belong to the caller.
-struct RawImage {
-  std::string topic;  // for messages
-  std::string encoding;
-  std::uint32_t width = 0, height = 0, step = 0;
-  bool big_endian = false;
-  const std::uint8_t* data = nullptr;
-  std::size_t size = 0;
-};
-
-// A camera as sensor_msgs/CameraInfo has it.
-struct CameraNumbers {
-  std::string topic;  // for messages
-  std::uint32_t width = 0, height = 0;
-  std::string distortion_model;
-  std::vector<double> d;
-  std::array<double, 9> k{}, r{};
-  std::array<double, 12> p{};
-  std::uint32_t binning_x = 0, binning_y = 0;
-  std::array<std::uint32_t, 4> region{};  // x, y, width, height; all 0: the whole image
-};
 
 struct LiveSlamSettings {
   std::string sensor = "mono";  // mono, stereo, rgbd
@@ -86,19 +68,19 @@ class LiveSlam {
   LiveSlam& operator=(const LiveSlam&) = delete;
 
   // Whether the cameras are known.
-  bool IsCalibrated() const;
+  bool IsCalibrated() const { return calibration_.has_value(); }
   // image_topic: of the left images; the last part of its name may say that they are rectified, as
   // for the topics of a bag.
-  void SetCameras(const CameraNumbers& left,
-                  const std::optional<CameraNumbers>& right,
+  void SetCameras(const TopicCamera& left,
+                  const std::optional<TopicCamera>& right,
                   const std::string& image_topic);
 
   // A frame; `second` is the right image or the depth image, null with one camera. Stamps that jump
   // back go on behind the frame before (StampContinuity): then this returns by how many seconds
   // they jumped. 16 bits of depth are millimetres. Where maps that wait do not fit the camera,
   // every frame is refused for that reason until Load or Reset.
-  std::optional<double> Feed(std::int64_t stamp_ns, const RawImage& left, const RawImage* second);
-  bool HasFrames() const;
+  std::optional<double> Feed(const TopicImage& left, const TopicImage* second);
+  bool HasFrames() const { return session_ && has_frames_; }
 
   // Hands over the active map as mapping has it when it has done what was fed, in the thread that
   // maps; nothing where there is no map. Waits until the frames so far are tracked.
@@ -112,8 +94,27 @@ class LiveSlam {
   void Reset();
 
  private:
-  class Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  class Session;
+
+  SensorFrame FrameOf(const TopicImage& left, const TopicImage* second) const;
+  std::unique_ptr<Session> MakeSession();
+  std::unique_ptr<Session> Begin();
+  void Observe(const FrameRecord& record, bool corrected);
+  std::int64_t StampAsFed(std::int64_t stamp_ns);
+
+  SensorKind sensor_;
+  std::optional<bool> rectified_;
+  SlamOptions options_;
+  std::optional<Calibration> calibration_;
+  Observer observer_;
+  std::optional<SavedAtlas> loaded_;  // to begin with
+  bool localize_ = false;
+  std::optional<std::string> unusable_;  // why no session could begin, where that was tried
+  StampContinuity continuity_;
+  bool has_frames_ = false;
+  std::mutex stamps_mutex_;
+  std::map<std::int64_t, std::int64_t> stamps_;  // ours to those as fed, of frames that are not out
+  std::unique_ptr<Session> session_;  // null until the first frame; last: its threads call Observe
 };
 
 }  // namespace plumbline::ros_node

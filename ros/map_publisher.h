@@ -3,28 +3,28 @@
 #pragma once
 
 #include "live_slam.h"
-#include "node_parameters.h"
-
-#include <ros/node_handle.h>
-#include <ros/publisher.h>
-#include <ros/time.h>
+#include "messages.h"
+#include "transport.h"
+#include <memory>
 
 namespace plumbline::ros_node {
 
-// Publishes a map, latched: ~points (PointCloud2), ~lines (a marker of segments) and ~path (the
+// Publishes a map, latched: ~/points (PointCloud2), ~/lines (a marker of segments) and ~/path (the
 // base at the keyframes, as corrected by now), all in the map's frame.
 class MapPublisher {
  public:
-  MapPublisher(ros::NodeHandle& own, const NodeParameters& parameters);
+  explicit MapPublisher(Transport& transport);
 
   // Whether somebody listens.
   bool IsWanted() const;
   // In any thread.
-  void Publish(const MapView& map, const Rigid3& base_from_camera, const ros::Time& stamp) const;
+  void Publish(const MapView& map,
+               const Rigid3& base_from_camera,
+               const MessageHeader& header) const;
 
  private:
-  const NodeParameters& parameters_;
-  ros::Publisher points_, lines_, path_;
+  bool cdr_;
+  std::unique_ptr<Publication> points_, lines_, path_;
 };
 
 }  // namespace plumbline::ros_node

@@ -4,139 +4,83 @@
 
 #include "plumbline/base/error.h"
 
-#include <functional>
-#include <utility>
+#include "make_node.h"
 
-#include <ros/console.h>
+#include <fmt/format.h>
 
 namespace plumbline::ros_node {
-namespace {
 
-ros::Time TimeOf(std::int64_t stamp_ns) {
-  ros::Time time;
-  time.fromNSec(static_cast<std::uint64_t>(stamp_ns));
-  return time;
-}
-
-RawImage RawOf(const std::string& topic, const sensor_msgs::Image& message) {
-  RawImage image;
-  image.topic = topic;
-  image.encoding = message.encoding;
-  image.width = message.width;
-  image.height = message.height;
-  image.step = message.step;
-  image.big_endian = message.is_bigendian != 0;
-  image.data = message.data.data();
-  image.size = message.data.size();
-  return image;
-}
-
-// What `work` returns is the message of success, what it throws that of a failure.
-bool Answer(const std::function<std::string()>& work, std_srvs::Trigger::Response& response) {
-  try {
-    response.message = work();
-    response.success = 1;
-    ROS_INFO("%s", response.message.c_str());
-  } catch (const InputError& error) {
-    response.message = error.what();
-    response.success = 0;
-    ROS_ERROR("%s", response.message.c_str());
-  }
-  return true;
-}
-
-void Warn(const std::vector<std::string>& remarks) {
-  for (const std::string& remark : remarks) ROS_WARN("%s", remark.c_str());
-}
-
-}  // namespace
-
-Node::Node(ros::NodeHandle public_node, ros::NodeHandle own)
-    : parameters_(ReadParameters(own)),
-      poses_(own, parameters_),
-      maps_(own, parameters_),
+Node::Node(Transport& transport, const NodeParameters& parameters)
+    : parameters_(parameters),
+      log_(transport),
+      poses_(transport, log_, parameters_),
+      maps_(transport),
       slam_(parameters_.slam,
-            [this](const FrameOutcome& frame) {
-              poses_.Publish(frame, *base_from_camera_, TimeOf(frame.stamp_ns));
-            }),
-      frames_(public_node, parameters_, [this](const ImageMessages& messages) { Take(messages); }) {
+            [this](const FrameOutcome& frame) { poses_.Publish(frame, *base_from_camera_); }),
+      frames_(transport, log_, parameters_, [this](const FrameImages& images) { Take(images); }) {
   if (parameters_.load || parameters_.localize) {
     Warn(slam_.Load(parameters_.map_file, parameters_.localize));
   }
-  services_.push_back(own.advertiseService("save_map", &Node::Save, this));
-  services_.push_back(own.advertiseService("load_map", &Node::Load, this));
-  services_.push_back(own.advertiseService("localize", &Node::Localize, this));
-  services_.push_back(own.advertiseService("reset", &Node::Reset, this));
-  map_timer_ = own.createWallTimer(ros::WallDuration(parameters_.map_period),
-                                   boost::function<void(const ros::WallTimerEvent&)>(
-                                       [this](const ros::WallTimerEvent&) { PublishMap(); }));
+  OfferServices(transport);
+  transport.Repeat(parameters_.map_period, [this] { PublishMap(); });
 }
 
-void Node::Take(const ImageMessages& messages) {
+void Node::OfferServices(Transport& transport) {
+  transport.OfferTrigger("~/save_map", [this] { return slam_.Save(MapFile()); });
+  transport.OfferTrigger("~/load_map", [this] { return LoadMaps(false); });
+  transport.OfferTrigger("~/localize", [this] { return LoadMaps(true); });
+  transport.OfferTrigger("~/reset", [this] {
+    slam_.Reset();
+    poses_.StartAnew();
+    return std::string("the maps are gone; another one begins with the next frame");
+  });
+}
+
+void Node::Warn(const std::vector<std::string>& remarks) {
+  for (const std::string& remark : remarks) log_.Say(Severity::kWarning, remark);
+}
+
+void Node::Take(const FrameImages& images) {
   try {
-    if (!GetReady(*messages.left)) return;
-    const RawImage left = RawOf(frames_.topic(), *messages.left);
-    std::optional<RawImage> second;
-    if (messages.second) second = RawOf(frames_.second_topic(), *messages.second);
-    newest_stamp_ = messages.left->header.stamp;
-    const auto jumped = slam_.Feed(
-        static_cast<std::int64_t>(newest_stamp_.toNSec()), left, second ? &*second : nullptr);
+    if (!GetReady(images.left.message)) return;
+    newest_stamp_ns_ = images.left.message.stamp_ns;
+    const auto jumped = slam_.Feed(images.left, images.second ? &*images.second : nullptr);
     map_is_new_ = true;
     if (!jumped) return;
-    ROS_WARN(
-        "stamps jump back by %.3f s; the camera is looked for in the map, or another map begins",
-        *jumped);
+    log_.Say(Severity::kWarning,
+             fmt::format("stamps jump back by {:.3f} s; the camera is looked for in the map, or "
+                         "another map begins",
+                         *jumped));
   } catch (const InputError& error) {
-    ROS_ERROR_THROTTLE(5, "a frame is left out: %s", error.what());
+    log_.Throttled(Severity::kError, fmt::format("a frame is left out: {}", error.what()));
   }
 }
 
-bool Node::GetReady(const sensor_msgs::Image& image) {
+bool Node::GetReady(const ImageMessage& image) {
   if (!slam_.IsCalibrated()) {
     const auto cameras = frames_.FindCameras();
     if (!cameras) {
-      ROS_WARN_THROTTLE(5,
-                        "images come but no camera_info, which frames wait for; or give ~camera");
+      log_.Throttled(
+          Severity::kWarning,
+          "images come but no camera_info, which frames wait for; or give the parameter camera");
       return false;
     }
     slam_.SetCameras(cameras->first, cameras->second, frames_.topic());
   }
-  if (!base_from_camera_) base_from_camera_ = poses_.FindMounting(image.header.frame_id);
+  if (!base_from_camera_) base_from_camera_ = poses_.FindMounting(image.frame);
   return base_from_camera_.has_value();
 }
 
 void Node::PublishMap() {
   if (!slam_.HasFrames() || !map_is_new_ || !maps_.IsWanted()) return;
   map_is_new_ = false;
-  slam_.ViewMap([this, stamp = newest_stamp_](const MapView& map) {
-    maps_.Publish(map, *base_from_camera_, stamp);
-  });
-}
-
-bool Node::Save(Trigger::Request&, Trigger::Response& response) {
-  return Answer([this] { return slam_.Save(MapFile()); }, response);
-}
-
-bool Node::Load(Trigger::Request&, Trigger::Response& response) {
-  return Answer([this] { return LoadMaps(false); }, response);
-}
-
-bool Node::Localize(Trigger::Request&, Trigger::Response& response) {
-  return Answer([this] { return LoadMaps(true); }, response);
-}
-
-bool Node::Reset(Trigger::Request&, Trigger::Response& response) {
-  return Answer(
-      [this] {
-        slam_.Reset();
-        poses_.StartAnew();
-        return std::string("the maps are gone; another one begins with the next frame");
-      },
-      response);
+  const MessageHeader header{newest_stamp_ns_, parameters_.map_frame};
+  slam_.ViewMap(
+      [this, header](const MapView& map) { maps_.Publish(map, *base_from_camera_, header); });
 }
 
 const std::string& Node::MapFile() const {
-  if (parameters_.map_file.empty()) throw InputError("~map_file: expected a file, found none");
+  if (parameters_.map_file.empty()) throw InputError("map_file: expected a file, found none");
   return parameters_.map_file;
 }
 
@@ -145,6 +89,12 @@ std::string Node::LoadMaps(bool localize) {
   poses_.StartAnew();
   return MapFile() + (localize ? ": the camera is looked for, and nothing is changed"
                                : ": the camera is looked for, and the map goes on");
+}
+
+std::shared_ptr<void> MakeNode(Transport& transport,
+                               const Parameters& parameters,
+                               const std::string& prefix) {
+  return std::make_shared<Node>(transport, ReadParameters(parameters, prefix));
 }
 
 }  // namespace plumbline::ros_node

@@ -3,178 +3,155 @@
 #include "node_parameters.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/printable.h"
 
 #include <optional>
 #include <set>
-#include <sstream>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
-#include <xmlrpcpp/XmlRpcValue.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace plumbline::ros_node {
 namespace {
 
-using XmlRpc::XmlRpcValue;
+constexpr const char* kOptions = "options.";
 
-const char* NameOfType(XmlRpcValue::Type type) {
-  switch (type) {
-    case XmlRpcValue::TypeBoolean:
-      return "a truth value";
-    case XmlRpcValue::TypeInt:
-      return "a whole number";
-    case XmlRpcValue::TypeDouble:
-      return "a number";
-    case XmlRpcValue::TypeString:
-      return "a text";
-    case XmlRpcValue::TypeStruct:
-      return "a group";
-    case XmlRpcValue::TypeArray:
-      return "a list";
-    default:
-      return "something else";
-  }
+std::string NameOfType(const ParameterValue& value) {
+  static constexpr const char* kNames[] = {
+      "a truth value", "a whole number", "a number", "a text", "a list"};
+  return kNames[value.index()];
+}
+
+std::string TextOf(const ParameterValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const auto* number = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *number);
+  return fmt::format("{}", std::get<double>(value));
 }
 
 // Reads parameters by name, and remembers the names.
 class Reader {
  public:
-  explicit Reader(const ros::NodeHandle& own) : own_(own) {}
+  Reader(const Parameters& parameters, const std::string& prefix)
+      : parameters_(parameters), prefix_(prefix) {}
 
   template <class T>
-  void Read(const std::string& name, XmlRpcValue::Type type, T& value) {
+  void Read(const std::string& name, T& value) {
     names_.insert(name);
-    XmlRpcValue found;
-    if (!own_.getParam(name, found)) return;
+    const auto found = parameters_.find(name);
+    if (found == parameters_.end()) return;
     if constexpr (std::is_same_v<T, double>) {
-      if (found.getType() == XmlRpcValue::TypeInt) {
-        value = static_cast<int&>(found);
+      if (const auto* number = std::get_if<std::int64_t>(&found->second)) {
+        value = static_cast<double>(*number);
         return;
       }
     }
-    if (found.getType() != type) {
-      throw InputError("~" + name + ": expected " + NameOfType(type) + ", found " +
-                       NameOfType(found.getType()));
-    }
-    value = static_cast<T&>(found);
+    const T* wanted = std::get_if<T>(&found->second);
+    if (wanted == nullptr) Fail(name, NameOfType(T(value)), NameOfType(found->second));
+    value = *wanted;
   }
-  void Text(const std::string& name, std::string& value) {
-    Read(name, XmlRpcValue::TypeString, value);
+  void Read(const std::string& name, int& value) {
+    std::int64_t number = value;
+    Read(name, number);
+    if (number < 1 || number > 1'000'000) Fail(name, "at least 1", fmt::format("{}", number));
+    value = static_cast<int>(number);
   }
-  void Flag(const std::string& name, bool& value) { Read(name, XmlRpcValue::TypeBoolean, value); }
   // Stays empty where it is not set.
-  void Flag(const std::string& name, std::optional<bool>& value) {
+  void Read(const std::string& name, std::optional<bool>& value) {
     bool flag = false;
-    Flag(name, flag);
-    if (own_.hasParam(name)) value = flag;
+    Read(name, flag);
+    if (parameters_.contains(name)) value = flag;
   }
-  // A group of any depth; not valid where there is none.
-  XmlRpcValue Group(const std::string& name) {
-    names_.insert(name);
-    XmlRpcValue found;
-    if (own_.getParam(name, found) && found.getType() != XmlRpcValue::TypeStruct) {
-      throw InputError("~" + name + ": expected a group, found " + NameOfType(found.getType()));
+  // One of two texts; returns true for the second.
+  bool IsSecond(const std::string& name, const std::string& first, const std::string& second) {
+    std::string value = first;
+    Read(name, value);
+    if (value != first && value != second) Fail(name, first + " or " + second, Printable(value));
+    return value == second;
+  }
+  // The options of SLAM: options.features.line_count is features.line_count.
+  std::vector<std::string> ReadOptions() {
+    const std::string group(kOptions, std::string(kOptions).size() - 1);
+    names_.insert(group);
+    if (const auto whole = parameters_.find(group); whole != parameters_.end()) {
+      Fail(group, "a group", NameOfType(whole->second));
     }
-    return found;
+    std::vector<std::string> options;
+    for (const auto& [name, value] : parameters_) {
+      if (!name.starts_with(kOptions)) continue;
+      if (std::holds_alternative<ListValue>(value)) {
+        Fail(name, "a number, a truth value or a text", "a list");
+      }
+      options.push_back(name.substr(std::string(kOptions).size()) + "=" + TextOf(value));
+    }
+    return options;
   }
 
   // What was set for this node and is none of its parameters.
   void CheckNames() const {
-    std::vector<std::string> all;
-    own_.getParamNames(all);
-    const std::string prefix = own_.getNamespace() + "/";
-    for (const std::string& full : all) {
-      if (full.compare(0, prefix.size(), prefix) != 0) continue;
-      const std::string rest = full.substr(prefix.size());
-      const std::string name = rest.substr(0, rest.find('/'));
-      if (names_.count(name) > 0) continue;
-      std::string known;
-      for (const std::string& one : names_) known += (known.empty() ? "" : ", ") + one;
-      throw InputError("~" + name + ": expected a parameter of this node (" + known + ")");
+    for (const auto& [name, value] : parameters_) {
+      if (names_.contains(name) || name.starts_with(kOptions)) continue;
+      throw InputError(fmt::format("{}{}: expected a parameter of this node ({})",
+                                   prefix_,
+                                   Printable(name),
+                                   fmt::join(names_, ", ")));
     }
+  }
+
+  [[noreturn]] void Fail(const std::string& name,
+                         const std::string& expected,
+                         const std::string& found) const {
+    throw InputError(fmt::format("{}{}: expected {}, found {}", prefix_, name, expected, found));
   }
 
  private:
-  const ros::NodeHandle& own_;
+  const Parameters& parameters_;
+  const std::string& prefix_;
   std::set<std::string> names_;
 };
 
-std::string TextOf(const std::string& key, XmlRpcValue& value) {
-  std::ostringstream text;
-  text.precision(17);
-  switch (value.getType()) {
-    case XmlRpcValue::TypeBoolean:
-      return static_cast<bool&>(value) ? "true" : "false";
-    case XmlRpcValue::TypeInt:
-      return std::to_string(static_cast<int&>(value));
-    case XmlRpcValue::TypeDouble:
-      text << static_cast<double&>(value);
-      return text.str();
-    case XmlRpcValue::TypeString:
-      return static_cast<std::string&>(value);
-    default:
-      throw InputError("~options/" + key + ": expected a number, a truth value or a text, found " +
-                       NameOfType(value.getType()));
-  }
-}
-
-// ~options/features/line_count is the option features.line_count.
-void AddOptions(XmlRpcValue& group, const std::string& prefix, std::vector<std::string>& options) {
-  for (auto& entry : group) {
-    const std::string key = prefix + entry.first;
-    if (entry.second.getType() == XmlRpcValue::TypeStruct) {
-      AddOptions(entry.second, key + ".", options);
-    } else {
-      options.push_back(key + "=" + TextOf(key, entry.second));
-    }
-  }
-}
-
-void CheckTogether(const NodeParameters& p) {
+void CheckTogether(const Reader& reader, const NodeParameters& p) {
   if (p.slam.sensor != "mono" && p.slam.sensor != "stereo" && p.slam.sensor != "rgbd") {
-    throw InputError("~sensor: expected mono, stereo or rgbd, found " + p.slam.sensor);
-  }
-  if (p.queue_size < 1) {
-    throw InputError("~queue_size: expected at least 1, found " + std::to_string(p.queue_size));
+    reader.Fail("sensor", "mono, stereo or rgbd", Printable(p.slam.sensor));
   }
   if (!(p.map_period > 0)) {
-    throw InputError("~map_period: expected seconds greater than 0, found " +
-                     std::to_string(p.map_period));
+    reader.Fail("map_period", "seconds greater than 0", fmt::format("{}", p.map_period));
   }
   if ((p.load || p.localize) && p.map_file.empty()) {
-    throw InputError("~map_file: expected a file to load, found none");
+    reader.Fail("map_file", "a file to load", "none");
   }
 }
 
 }  // namespace
 
-NodeParameters ReadParameters(const ros::NodeHandle& own) {
+NodeParameters ReadParameters(const Parameters& parameters, const std::string& prefix) {
   NodeParameters p;
-  Reader reader(own);
-  std::string sync = "exact";
-  reader.Text("sensor", p.slam.sensor);
-  reader.Text("camera", p.slam.camera);
-  reader.Flag("rectified", p.slam.rectified);
-  reader.Text("config", p.slam.config);
-  XmlRpcValue options = reader.Group("options");
-  if (options.valid()) AddOptions(options, "", p.slam.options);
-  reader.Text("sync", sync);
-  if (sync != "exact" && sync != "approximate") {
-    throw InputError("~sync: expected exact or approximate, found " + sync);
+  Reader reader(parameters, prefix);
+  reader.Read("sensor", p.slam.sensor);
+  reader.Read("camera", p.slam.camera);
+  reader.Read("rectified", p.slam.rectified);
+  reader.Read("config", p.slam.config);
+  p.slam.options = reader.ReadOptions();
+  if (reader.IsSecond("image_transport", "raw", "compressed")) p.image_transport = "compressed";
+  if (reader.IsSecond("depth_transport", "raw", "compressedDepth")) {
+    p.depth_transport = "compressedDepth";
   }
-  p.approximate_sync = sync == "approximate";
-  reader.Read("queue_size", XmlRpcValue::TypeInt, p.queue_size);
-  reader.Text("map_file", p.map_file);
-  reader.Flag("load", p.load);
-  reader.Flag("localize", p.localize);
-  reader.Text("map_frame", p.map_frame);
-  reader.Text("odom_frame", p.odom_frame);
-  reader.Text("base_frame", p.base_frame);
-  reader.Flag("publish_tf", p.publish_tf);
-  reader.Flag("publish_odom_tf", p.publish_odom_tf);
-  reader.Read("map_period", XmlRpcValue::TypeDouble, p.map_period);
+  p.approximate_sync = reader.IsSecond("sync", "exact", "approximate");
+  reader.Read("queue_size", p.queue_size);
+  reader.Read("map_file", p.map_file);
+  reader.Read("load", p.load);
+  reader.Read("localize", p.localize);
+  reader.Read("map_frame", p.map_frame);
+  reader.Read("odom_frame", p.odom_frame);
+  reader.Read("base_frame", p.base_frame);
+  reader.Read("publish_tf", p.publish_tf);
+  reader.Read("publish_odom_tf", p.publish_odom_tf);
+  reader.Read("map_period", p.map_period);
   reader.CheckNames();
-  CheckTogether(p);
+  CheckTogether(reader, p);
   return p;
 }
 

@@ -3,15 +3,15 @@
 #pragma once
 
 #include "live_slam.h"
+#include "transport.h"
 #include <string>
-
-#include <ros/node_handle.h>
 
 namespace plumbline::ros_node {
 
 // The parameters of the node; docs/ros.md says what they are.
 struct NodeParameters {
-  LiveSlamSettings slam;  // ~sensor, ~camera, ~rectified, ~config, ~options
+  LiveSlamSettings slam;  // sensor, camera, rectified, config, options
+  std::string image_transport = "raw", depth_transport = "raw";
   bool approximate_sync = false;
   int queue_size = 5;
   std::string map_file;  // empty: none
@@ -27,7 +27,7 @@ struct NodeParameters {
 };
 
 // Reads all of them. Throws InputError for a parameter of another type, a value that makes no sense
-// and a name that is none, with what was expected and found.
-NodeParameters ReadParameters(const ros::NodeHandle& own);
+// and a name that is none, with what was expected and found; `prefix` stands before its name.
+NodeParameters ReadParameters(const Parameters& parameters, const std::string& prefix);
 
 }  // namespace plumbline::ros_node

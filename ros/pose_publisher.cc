@@ -2,138 +2,112 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pose_publisher.h"
 
-#include "frames.h"
-#include <algorithm>
+#include "messages.h"
 #include <utility>
 #include <vector>
 
-#include <geometry_msgs/PoseStamped.h>
-#include <geometry_msgs/TransformStamped.h>
-#include <nav_msgs/Odometry.h>
-#include <ros/console.h>
-#include <std_msgs/String.h>
+#include <fmt/format.h>
 
 namespace plumbline::ros_node {
 namespace {
 
-geometry_msgs::TransformStamped Stamped(const ros::Time& stamp,
-                                        const std::string& parent,
-                                        const std::string& child,
-                                        const Rigid3& parent_from_child) {
-  geometry_msgs::TransformStamped message;
-  message.header.stamp = stamp;
-  message.header.frame_id = parent;
-  message.child_frame_id = child;
-  message.transform = ToTransform(parent_from_child);
-  return message;
-}
-
-nav_msgs::Odometry OdometryOf(const BasePose& pose,
-                              const NodeParameters& parameters,
-                              const ros::Time& stamp) {
-  nav_msgs::Odometry message;
-  message.header.stamp = stamp;
-  message.header.frame_id = parameters.odom_frame;
-  message.child_frame_id = parameters.base_frame;
-  message.pose.pose = ToPose(pose.odom_from_base);
-  message.twist.twist.linear.x = pose.linear.x();
-  message.twist.twist.linear.y = pose.linear.y();
-  message.twist.twist.linear.z = pose.linear.z();
-  message.twist.twist.angular.x = pose.angular.x();
-  message.twist.twist.angular.y = pose.angular.y();
-  message.twist.twist.angular.z = pose.angular.z();
-  return message;
+// The camera in a base that looks where it looks: x ahead, y to the left, z up (REP 103) for z
+// ahead, x to the right, y down.
+Rigid3 ForwardLooking() {
+  Eigen::Matrix3d base_from_camera;
+  base_from_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  return {Eigen::Quaterniond(base_from_camera), Eigen::Vector3d::Zero()};
 }
 
 }  // namespace
 
-PosePublisher::PosePublisher(ros::NodeHandle& own, const NodeParameters& parameters)
-    : parameters_(parameters), listener_(buffer_) {
-  pose_ = own.advertise<geometry_msgs::PoseStamped>("pose", 10);
-  odometry_publisher_ = own.advertise<nav_msgs::Odometry>("odometry", 10);
-  state_ = own.advertise<std_msgs::String>("state", 1, true);
+PosePublisher::PosePublisher(Transport& transport, NodeLog& log, const NodeParameters& parameters)
+    : transport_(transport), log_(log), parameters_(parameters) {
+  pose_ = transport.Advertise({transport.Resolve("~/pose"), "geometry_msgs/PoseStamped", 10});
+  odometry_publication_ =
+      transport.Advertise({transport.Resolve("~/odometry"), "nav_msgs/Odometry", 10});
+  state_ = transport.Advertise({transport.Resolve("~/state"), "std_msgs/String", 1, true});
+  if (parameters.publish_tf)
+    tf_ = transport.Advertise({transport.Resolve("/tf"), "tf2_msgs/TFMessage", 100});
+  ListenTo("/tf", false);
+  ListenTo("/tf_static", true);
+}
+
+void PosePublisher::ListenTo(const std::string& topic, bool is_static) {
+  const TopicSettings settings{transport_.Resolve(topic), "tf2_msgs/TFMessage", 100, is_static};
+  transport_.Subscribe(settings, [this, topic, is_static](const Bytes& bytes) {
+    const auto transforms = ParseRosTransforms(transport_.UsesCdr(), bytes);
+    if (transforms) return transforms_.Add(*transforms, is_static);
+    log_.Throttled(Severity::kError, "a message of " + topic + " is left out: it is broken");
+  });
 }
 
 std::optional<Rigid3> PosePublisher::FindMounting(const std::string& camera_frame) {
-  constexpr double kPatience = 2;  // seconds of the wall clock
+  constexpr std::chrono::seconds kPatience{2};
   if (camera_frame == parameters_.base_frame) return Rigid3();
-  try {
-    return FromTransform(
-        buffer_.lookupTransform(parameters_.base_frame, camera_frame, ros::Time(0)).transform);
-  } catch (const tf2::TransformException& error) {
-    const ros::WallTime now = ros::WallTime::now();
-    if (!waiting_since_) waiting_since_ = now;
-    if ((now - *waiting_since_).toSec() < kPatience) return std::nullopt;
-    ROS_WARN(
-        "tf knows no transform from %s to %s (%s): the base is taken to be in the camera and to "
-        "look where it looks",
-        parameters_.base_frame.c_str(),
-        camera_frame.c_str(),
-        error.what());
-    return ForwardLooking();
-  }
+  const auto found = transforms_.Find(parameters_.base_frame, camera_frame);
+  if (found) return *found;
+  const auto now = std::chrono::steady_clock::now();
+  if (!waiting_since_) waiting_since_ = now;
+  if (now - *waiting_since_ < kPatience) return std::nullopt;
+  log_.Say(Severity::kWarning,
+           fmt::format("tf knows no transform from {} to {} ({}): the base is taken to be in the "
+                       "camera and to look where it looks",
+                       parameters_.base_frame,
+                       camera_frame,
+                       found.error()));
+  return ForwardLooking();
 }
 
-void PosePublisher::Publish(const FrameOutcome& frame,
-                            const Rigid3& base_from_camera,
-                            const ros::Time& stamp) {
+void PosePublisher::Publish(const FrameOutcome& frame, const Rigid3& base_from_camera) {
   PublishState(frame);
   if (!frame.world_from_camera) return;
   const Rigid3 map_from_base =
       base_from_camera * *frame.world_from_camera * Inverse(base_from_camera);
   if (!odometry_) odometry_.emplace();
   const BasePose& pose = odometry_->Next(frame.stamp_ns, frame.map, map_from_base, frame.corrected);
-  geometry_msgs::PoseStamped message;
-  message.header.stamp = stamp;
-  message.header.frame_id = parameters_.map_frame;
-  message.pose = ToPose(pose.map_from_base);
-  pose_.publish(message);
-  nav_msgs::Odometry odometry = OdometryOf(pose, parameters_, stamp);
+  const bool cdr = transport_.UsesCdr();
+  pose_->Publish(PoseMessage(cdr, {frame.stamp_ns, parameters_.map_frame}, pose.map_from_base));
+  std::optional<Matrix6d> covariance;
   if (frame.covariance) {
-    const Matrix6d covariance =
+    covariance =
         BaseCovariance(pose, base_from_camera, *frame.world_from_camera, *frame.covariance);
-    std::copy_n(covariance.data(), covariance.size(), odometry.pose.covariance.begin());
   }
-  odometry_publisher_.publish(odometry);
-  if (parameters_.publish_tf) PublishTransforms(pose, stamp);
+  odometry_publication_->Publish(OdometryMessage(cdr,
+                                                 {frame.stamp_ns, parameters_.odom_frame},
+                                                 parameters_.base_frame,
+                                                 pose,
+                                                 covariance.value_or(Matrix6d::Zero())));
+  if (parameters_.publish_tf) PublishTransforms(pose, frame.stamp_ns);
 }
 
 void PosePublisher::PublishState(const FrameOutcome& frame) {
   if (frame.skipped || std::exchange(state_now_, frame.state) == frame.state) return;
-  std_msgs::String message;
-  message.data = frame.state;
-  state_.publish(message);
+  state_->Publish(TextMessage(transport_.UsesCdr(), frame.state));
 }
 
-void PosePublisher::PublishTransforms(const BasePose& pose, const ros::Time& stamp) {
-  std::vector<geometry_msgs::TransformStamped> transforms;
+void PosePublisher::PublishTransforms(const BasePose& pose, std::int64_t stamp_ns) {
+  const auto& [map, odom, base] =
+      std::tie(parameters_.map_frame, parameters_.odom_frame, parameters_.base_frame);
+  std::vector<TransformMessage> transforms;
   Rigid3 map_from_odom = pose.MapFromOdom();
   if (parameters_.publish_odom_tf) {
-    transforms.push_back(
-        Stamped(stamp, parameters_.odom_frame, parameters_.base_frame, pose.odom_from_base));
+    transforms.push_back({stamp_ns, odom, base, pose.odom_from_base});
   } else {
-    const auto odom_from_base = OdomFromOthers(stamp);
-    if (!odom_from_base) return;
+    const auto odom_from_base = transforms_.Find(odom, base, stamp_ns);
+    if (!odom_from_base) {
+      log_.Throttled(
+          Severity::kWarning,
+          fmt::format("no transform from {0} to {1}: nothing tells where {0} is in the map ({2})",
+                      odom,
+                      base,
+                      odom_from_base.error()));
+      return;
+    }
     map_from_odom = pose.map_from_base * Inverse(*odom_from_base);
   }
-  transforms.push_back(
-      Stamped(stamp, parameters_.map_frame, parameters_.odom_frame, map_from_odom));
-  broadcaster_.sendTransform(transforms);
-}
-
-std::optional<Rigid3> PosePublisher::OdomFromOthers(const ros::Time& stamp) const {
-  try {
-    return FromTransform(
-        buffer_.lookupTransform(parameters_.odom_frame, parameters_.base_frame, stamp).transform);
-  } catch (const tf2::TransformException& error) {
-    ROS_WARN_THROTTLE(5,
-                      "no transform from %s to %s: nothing tells where %s is in the map (%s)",
-                      parameters_.odom_frame.c_str(),
-                      parameters_.base_frame.c_str(),
-                      parameters_.odom_frame.c_str(),
-                      error.what());
-    return std::nullopt;
-  }
+  transforms.push_back({stamp_ns, map, odom, map_from_odom});
+  tf_->Publish(TransformsMessage(transport_.UsesCdr(), transforms));
 }
 
 }  // namespace plumbline::ros_node

@@ -6,6 +6,7 @@
 #   tools/install_packages.sh --product              the same without the renderer (apt_packages.txt)
 #   tools/install_packages.sh --python               the package for Python as well (apt_packages_python.txt)
 #   tools/install_packages.sh --ros                  the node of ROS 1 as well (apt_packages_ros.txt)
+#   tools/install_packages.sh --ros2                 the node of ROS 2 as well (apt_packages_ros2.txt)
 #   tools/install_packages.sh --tests [PACKAGE]...   to test as well (apt_packages_test.txt), and others
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -22,6 +23,10 @@ case ${1:-} in
     ;;
   --ros)
     lists+=(apt_packages_ros.txt)
+    shift
+    ;;
+  --ros2)
+    lists+=(apt_packages_ros2.txt)
     shift
     ;;
   --tests)

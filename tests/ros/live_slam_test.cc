@@ -23,16 +23,16 @@ using testing::HasSubstr;
 constexpr std::uint32_t kWidth = 64, kHeight = 48;
 
 // Numbers of which only P, of the rectified images, can be those of a camera.
-CameraNumbers RectifiedNumbers() {
-  CameraNumbers camera;
+TopicCamera RectifiedNumbers() {
+  TopicCamera camera;
   camera.topic = "/camera/camera_info";
-  camera.width = 640;
-  camera.height = 480;
-  camera.distortion_model = "plumb_bob";
-  camera.d = {0, 0, 0, 0, 0};
-  camera.k = {-500, 0, 320, 0, -500, 240, 0, 0, 1};
-  camera.r = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  camera.p = {500, 0, 320, 0, 0, 500, 240, 0, 0, 0, 1, 0};
+  camera.message.width = 640;
+  camera.message.height = 480;
+  camera.message.distortion_model = "plumb_bob";
+  camera.message.d = {0, 0, 0, 0, 0};
+  camera.message.k = {-500, 0, 320, 0, -500, 240, 0, 0, 1};
+  camera.message.r = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  camera.message.p = {500, 0, 320, 0, 0, 500, 240, 0, 0, 0, 1, 0};
   return camera;
 }
 
@@ -61,16 +61,16 @@ TEST(LiveSlam, TellsRectifiedImagesByTheirTopicUnlessItIsTold) {
   }
 }
 
-CameraNumbers Numbers() {
-  CameraNumbers numbers;
+TopicCamera Numbers() {
+  TopicCamera numbers;
   numbers.topic = "/camera_info";
-  numbers.width = kWidth;
-  numbers.height = kHeight;
-  numbers.distortion_model = "plumb_bob";
-  numbers.d = {0, 0, 0, 0, 0};
-  numbers.k = {50, 0, 32, 0, 50, 24, 0, 0, 1};
-  numbers.r = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  numbers.p = {50, 0, 32, 0, 0, 50, 24, 0, 0, 0, 1, 0};
+  numbers.message.width = kWidth;
+  numbers.message.height = kHeight;
+  numbers.message.distortion_model = "plumb_bob";
+  numbers.message.d = {0, 0, 0, 0, 0};
+  numbers.message.k = {50, 0, 32, 0, 50, 24, 0, 0, 1};
+  numbers.message.r = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  numbers.message.p = {50, 0, 32, 0, 0, 50, 24, 0, 0, 0, 1, 0};
   return numbers;
 }
 
@@ -90,14 +90,14 @@ class Frames {
   explicit Frames(LiveSlam& slam) : slam_(slam) {}
 
   void FeedNext(const std::string& encoding) {
-    RawImage image;
+    TopicImage image;
     image.topic = "/image";
-    image.encoding = encoding;
-    image.width = image.step = kWidth;
-    image.height = kHeight;
-    image.data = pixels_.data();
-    image.size = pixels_.size();
-    slam_.Feed(stamp_ns_ += 50'000'000, image, nullptr);
+    image.message.stamp_ns = stamp_ns_ += 50'000'000;
+    image.message.encoding = encoding;
+    image.message.width = image.message.step = kWidth;
+    image.message.height = kHeight;
+    image.message.data = pixels_;
+    slam_.Feed(image, nullptr);
   }
 
  private:

@@ -5,15 +5,13 @@
 #include "plumbline/io/dataset_formats.h"
 #include "plumbline/io/datasets/ground_truth.h"
 #include "plumbline/io/datasets/image_dataset.h"
-#include "plumbline/io/datasets/raw_pixels.h"
+#include "plumbline/io/datasets/message_pixels.h"
 #include "plumbline/io/datasets/recorded_calibration.h"
 #include "plumbline/io/datasets/recorded_topics.h"
 #include "plumbline/io/datasets/stamp_order.h"
 #include "plumbline/io/recordings/image_message.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -33,33 +31,6 @@ constexpr std::int64_t kMaxPairDelayNs = 5'000'000;
 constexpr std::int64_t kMaxDepthDelayNs = 20'000'000;
 // Units per metre of depth in 16 bits, as ROS has it (REP 118).
 constexpr double kMillimetres = 1000;
-constexpr std::size_t kCompressedDepthHeader = 12;
-
-bool IsInMetres(std::string_view encoding) { return encoding.starts_with("32FC1"); }
-
-// Depth in metres that image_transport's compressedDepth packed: before the image stand, behind 4
-// bytes, the numbers a and b by which a level v is a / (v - b) metres. 0 is no measurement.
-Expected<DepthImage, ImageFailure> DecodeInverseDepth(const fs::path& name,
-                                                      std::span<const std::uint8_t> bytes,
-                                                      std::optional<ImageSize> wanted) {
-  if (bytes.size() < kCompressedDepthHeader) return ImageFailure{name, "the message ends early"};
-  const auto number = [&](std::size_t at) {
-    std::uint32_t bits = 0;
-    for (std::size_t i = 4; i-- > 0;) bits = (bits << 8U) | bytes[at + i];
-    return std::bit_cast<float>(bits);
-  };
-  const float a = number(4), b = number(8);
-  auto depth = DecodeDepthImage(name, bytes.subspan(kCompressedDepthHeader), 1, wanted);
-  if (!depth) return depth;
-  for (int y = 0; y < depth->height(); ++y) {
-    float* row = depth->row(y);
-    for (int x = 0; x < depth->width(); ++x) {
-      const float metres = row[x] == 0 ? 0 : a / (row[x] - b);
-      row[x] = std::isfinite(metres) && metres > 0 ? metres : 0;
-    }
-  }
-  return depth;
-}
 
 // The messages of a frame.
 struct FrameMessages {
@@ -67,10 +38,6 @@ struct FrameMessages {
   std::optional<StoredMessage> right, depth;
   std::optional<StoredMessage> left_mask = std::nullopt, right_mask = std::nullopt;
 };
-
-RawPixels PixelsOf(const ImageMessage& image) {
-  return {image.encoding, image.width, image.height, image.step, image.big_endian, image.data};
-}
 
 class RecordedDataset : public Dataset {
  public:
@@ -154,29 +121,15 @@ class RecordedDataset : public Dataset {
 
   Expected<GrayImage, ImageFailure> Gray(const StoredMessage& place, ImageSize size) const {
     return ReadImage<GrayImage>(place, [&](const ImageMessage& image) {
-      if (image.compressed) {
-        return DecodeGrayImage(info().path, image.data, Wanted(size), bits_.value_or(16));
-      }
-      return GrayOfPixels(info().path, PixelsOf(image), Wanted(size), bits_);
+      return GrayOfMessage(info().path, image, Wanted(size), bits_);
     });
   }
 
   Expected<DepthImage, ImageFailure> Depth(const StoredMessage& place, ImageSize size) const {
     const double factor = calibration().depth_factor.value_or(1);
-    return ReadImage<DepthImage>(
-        place, [&](const ImageMessage& image) -> Expected<DepthImage, ImageFailure> {
-          if (!image.compressed) {
-            return DepthOfPixels(info().path, PixelsOf(image), factor, Wanted(size));
-          }
-          std::span<const std::uint8_t> bytes = image.data;
-          if (image.encoding.find("compressedDepth") != std::string::npos) {
-            if (IsInMetres(image.encoding)) {
-              return DecodeInverseDepth(info().path, bytes, Wanted(size));
-            }
-            bytes = bytes.subspan(std::min(bytes.size(), kCompressedDepthHeader));
-          }
-          return DecodeDepthImage(info().path, bytes, factor, Wanted(size));
-        });
+    return ReadImage<DepthImage>(place, [&](const ImageMessage& image) {
+      return DepthOfMessage(info().path, image, factor, Wanted(size));
+    });
   }
 
   std::unique_ptr<Recording> file_;

@@ -3,7 +3,9 @@
 #include "plumbline/base/units.h"
 #include "plumbline/io/recordings/byte_cursor.h"
 #include "plumbline/io/recordings/image_message.h"
+#include "plumbline/io/recordings/transform_message.h"
 
+#include <cmath>
 #include <string_view>
 
 namespace plumbline {
@@ -128,6 +130,28 @@ std::optional<InertialMessage> ParseRosInertial(bool cdr, ByteSpan bytes) {
   message.has_rate = read_vector(message.angular_rate);
   message.has_force = read_vector(message.specific_force);
   return fields.ok() ? std::optional(message) : std::nullopt;
+}
+
+std::optional<std::vector<TransformMessage>> ParseRosTransforms(bool cdr, ByteSpan bytes) {
+  if (cdr && !IsLittleEndianCdr(bytes)) return std::nullopt;
+  FieldReader fields(cdr, bytes);
+  std::vector<TransformMessage> transforms;
+  const std::uint32_t count = fields.U32();
+  for (std::uint32_t i = 0; i < count && fields.ok(); ++i) {
+    const FieldReader::Header header = fields.ReadHeader();
+    TransformMessage transform;
+    transform.stamp_ns = header.stamp_ns;
+    transform.parent = header.frame;
+    transform.child = fields.Text();
+    Rigid3& motion = transform.parent_from_child;
+    for (int k = 0; k < 3; ++k) motion.translation[k] = fields.F64();
+    for (int k = 0; k < 4; ++k) motion.rotation.coeffs()[k] = fields.F64();  // x, y, z, w
+    const double norm = motion.rotation.norm();
+    if (!motion.translation.allFinite() || !(norm > 0) || !std::isfinite(norm)) return std::nullopt;
+    motion.rotation.normalize();
+    transforms.push_back(std::move(transform));
+  }
+  return fields.ok() ? std::optional(std::move(transforms)) : std::nullopt;
 }
 
 }  // namespace plumbline

@@ -2,16 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 
-#include "node.h"
+#include "make_node.h"
+#include "ros1_transport.h"
 #include <cstdio>
 #include <exception>
 
 #include <ros/ros.h>
 
 int main(int argc, char** argv) {
+  using namespace plumbline::ros_node;
   ros::init(argc, argv, "plumbline");
   try {
-    plumbline::ros_node::Node node{ros::NodeHandle(), ros::NodeHandle("~")};
+    Ros1Transport transport;
+    const auto node = MakeNode(transport, transport.ReadParameters(), "~");
     ros::spin();
     return 0;
   } catch (const plumbline::InputError& error) {

@@ -1,0 +1,292 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ros2_transport.h"
+
+#include "message_writer.h"
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <list>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <fastdds/dds/core/condition/WaitSet.hpp>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TopicDataType.hpp>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+
+namespace plumbline::ros_node {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kOk = 0;
+constexpr std::uint32_t kFirstSize = 1024;  // bytes of a message before one is known
+constexpr std::uint32_t kSocketBuffer = 8U
+                                        << 20U;  // bytes; a few images, as far as the system has it
+
+// Messages of any type, as their bytes.
+class RawType : public dds::TopicDataType {
+ public:
+  explicit RawType(const std::string& name) {
+    setName(name.c_str());
+    m_typeSize = kFirstSize;
+    auto_fill_type_object(false);
+    auto_fill_type_information(false);
+  }
+
+  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
+    const Bytes& bytes = *static_cast<Bytes*>(data);
+    if (bytes.size() > payload->max_size) return false;
+    std::memcpy(payload->data, bytes.data(), bytes.size());
+    payload->length = static_cast<std::uint32_t>(bytes.size());
+    payload->encapsulation = CDR_LE;
+    return true;
+  }
+  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override {
+    static_cast<Bytes*>(data)->assign(payload->data, payload->data + payload->length);
+    return true;
+  }
+  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
+    return [data] { return static_cast<std::uint32_t>(static_cast<Bytes*>(data)->size()); };
+  }
+  void* createData() override { return new Bytes; }
+  void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
+  bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
+};
+
+// "sensor_msgs/Image" as ROS 2 names it in DDS.
+std::string DdsTypeOf(const std::string& type) {
+  const std::size_t slash = type.find('/');
+  return type.substr(0, slash) + "::msg::dds_::" + type.substr(slash + 1) + "_";
+}
+
+template <class Qos>
+void SetQos(const TopicSettings& topic, bool reliable, Qos& qos) {
+  qos.reliability().kind =
+      reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
+  qos.durability().kind =
+      topic.latched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+  qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = topic.queue_size;
+  qos.resource_limits().max_samples = topic.queue_size;
+  qos.resource_limits().max_instances = 1;
+  qos.resource_limits().max_samples_per_instance = topic.queue_size;
+  qos.resource_limits().allocated_samples = 1;
+  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+}
+
+template <class T>
+T* OrFail(T* made, const std::string& what) {
+  if (made == nullptr) throw std::runtime_error("DDS: " + what + " cannot be made");
+  return made;
+}
+
+class Ros2Publication : public Publication {
+ public:
+  explicit Ros2Publication(dds::DataWriter* writer) : writer_(writer) {}
+
+  void Publish(const Bytes& message) override { writer_->write(const_cast<Bytes*>(&message)); }
+  bool HasSubscribers() const override {
+    dds::PublicationMatchedStatus status;
+    return writer_->get_publication_matched_status(status)() == kOk && status.current_count > 0;
+  }
+
+ private:
+  dds::DataWriter* writer_;  // the participant's
+};
+
+}  // namespace
+
+class Ros2Transport::Implementation {
+ public:
+  explicit Implementation(const Ros2Settings& settings) : settings_(settings) {
+    dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
+    qos.name(settings.name);
+    const std::string enclave = "enclave=/;";
+    qos.user_data().data_vec(std::vector<rtps::octet>(enclave.begin(), enclave.end()));
+    const auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+    udp->receiveBufferSize = udp->sendBufferSize = kSocketBuffer;
+    if (settings.localhost_only) udp->interfaceWhiteList = {"127.0.0.1"};
+    qos.transport().use_builtin_transports = false;
+    qos.transport().user_transports = {udp};
+    participant_ = OrFail(
+        dds::DomainParticipantFactory::get_instance()->create_participant(settings.domain, qos),
+        "a participant of domain " + std::to_string(settings.domain));
+    publisher_ = OrFail(participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT), "a publisher");
+    subscriber_ =
+        OrFail(participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT), "a subscriber");
+  }
+  ~Implementation() {
+    participant_->delete_contained_entities();
+    dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+  }
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+
+  const Ros2Settings& settings() const { return settings_; }
+
+  void Subscribe(const TopicSettings& topic, Receive receive) {
+    dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
+    SetQos(topic, !topic.sensor_data || settings_.reliable, qos);
+    dds::DataReader* reader = OrFail(
+        subscriber_->create_datareader(MakeTopic("rt" + topic.name, DdsTypeOf(topic.type)), qos),
+        "a subscription of " + topic.name);
+    dds::StatusCondition& status = reader->get_statuscondition();
+    dds::StatusMask awaited = dds::StatusMask::data_available();
+    awaited << dds::StatusMask::requested_incompatible_qos();
+    status.set_enabled_statuses(awaited);
+    waits_.attach_condition(status);
+    subscriptions_.push_back({topic.name, reader, std::move(receive)});
+  }
+
+  dds::DataWriter* MakeWriter(const std::string& topic_name,
+                              const std::string& type,
+                              const TopicSettings& topic) {
+    dds::DataWriterQos qos = dds::DATAWRITER_QOS_DEFAULT;
+    SetQos(topic, true, qos);
+    qos.publish_mode().kind = dds::ASYNCHRONOUS_PUBLISH_MODE;  // messages of any size
+    return OrFail(publisher_->create_datawriter(MakeTopic(topic_name, type), qos),
+                  "a publication of " + topic_name);
+  }
+  std::unique_ptr<Publication> Advertise(const TopicSettings& topic) {
+    dds::DataWriter* writer = MakeWriter("rt" + topic.name, DdsTypeOf(topic.type), topic);
+    writers_.push_back(writer);
+    return std::make_unique<Ros2Publication>(writer);
+  }
+
+  void Repeat(double seconds, std::function<void()> work) {
+    const auto period = std::chrono::duration_cast<Clock::duration>(
+        std::chrono::duration<double>(std::min(seconds, 1e6)));
+    timers_.push_back({Clock::now() + period, period, std::move(work)});
+  }
+
+  void Run(const std::function<bool()>& stop, const std::function<void(const std::string&)>& warn) {
+    Introduce();
+    while (!stop()) {
+      dds::ConditionSeq active;
+      waits_.wait(active, eprosima::fastrtps::Duration_t(0, 100'000'000));
+      for (Subscription& subscription : subscriptions_) {
+        Receive(subscription);
+        CheckQos(subscription, warn);
+      }
+      for (Timer& timer : timers_) {
+        if (Clock::now() < timer.next) continue;
+        timer.next = Clock::now() + timer.period;
+        timer.work();
+      }
+    }
+  }
+
+ private:
+  struct Subscription {
+    std::string topic;
+    dds::DataReader* reader = nullptr;
+    Transport::Receive receive;
+    Bytes bytes = {};
+  };
+  struct Timer {
+    Clock::time_point next;
+    Clock::duration period;
+    std::function<void()> work;
+  };
+
+  dds::Topic* MakeTopic(const std::string& name, const std::string& type) {
+    if (auto* known = dynamic_cast<dds::Topic*>(participant_->lookup_topicdescription(name))) {
+      return known;
+    }
+    dds::TypeSupport(new RawType(type)).register_type(participant_);
+    return OrFail(participant_->create_topic(name, type, dds::TOPIC_QOS_DEFAULT), "topic " + name);
+  }
+
+  static void Receive(Subscription& subscription) {
+    dds::SampleInfo info;
+    while (subscription.reader->take_next_sample(&subscription.bytes, &info)() == kOk) {
+      if (info.valid_data) subscription.receive(subscription.bytes);
+    }
+  }
+
+  static void CheckQos(const Subscription& subscription,
+                       const std::function<void(const std::string&)>& warn) {
+    dds::RequestedIncompatibleQosStatus status;
+    subscription.reader->get_requested_incompatible_qos_status(status);
+    if (status.total_count_change == 0) return;
+    warn(subscription.topic +
+         ": a publisher has another QoS, and nothing of it comes (parameter reliability: "
+         "best_effort takes both kinds)");
+  }
+
+  // Tells which node the endpoints belong to.
+  void Introduce() {
+    TopicSettings topic;
+    topic.latched = true;
+    dds::DataWriter* writer = MakeWriter(
+        "ros_discovery_info", "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_", topic);
+    MessageWriter message(true);
+    const auto gid = [&](const rtps::GUID_t& guid) {
+      for (const rtps::octet part : guid.guidPrefix.value) message.U8(part);
+      for (const rtps::octet part : guid.entityId.value) message.U8(part);
+      for (std::size_t i = 16; i < settings_.gid_size; ++i) message.U8(0);
+    };
+    gid(participant_->guid());
+    message.U32(1);  // nodes
+    message.Text(settings_.name_space);
+    message.Text(settings_.name);
+    message.U32(static_cast<std::uint32_t>(subscriptions_.size()));
+    for (const Subscription& subscription : subscriptions_) gid(subscription.reader->guid());
+    message.U32(static_cast<std::uint32_t>(writers_.size()));
+    for (const dds::DataWriter* one : writers_) gid(one->guid());
+    Ros2Publication(writer).Publish(message.bytes());
+  }
+
+  Ros2Settings settings_;
+  dds::DomainParticipant* participant_ = nullptr;
+  dds::Publisher* publisher_ = nullptr;
+  dds::Subscriber* subscriber_ = nullptr;
+  dds::WaitSet waits_;
+  std::list<Subscription> subscriptions_;
+  std::vector<dds::DataWriter*> writers_;
+  std::vector<Timer> timers_;
+};
+
+Ros2Transport::Ros2Transport(const Ros2Settings& settings)
+    : implementation_(std::make_unique<Implementation>(settings)) {}
+Ros2Transport::~Ros2Transport() = default;
+
+void Ros2Transport::Run(const std::function<bool()>& stop) {
+  implementation_->Run(stop, [this](const std::string& line) { Log(Severity::kWarning, line); });
+}
+std::string Ros2Transport::Resolve(const std::string& name) const {
+  return implementation_->settings().Resolve(name);
+}
+void Ros2Transport::Subscribe(const TopicSettings& topic, Receive receive) {
+  implementation_->Subscribe(topic, std::move(receive));
+}
+void Ros2Transport::Repeat(double seconds, std::function<void()> work) {
+  implementation_->Repeat(seconds, std::move(work));
+}
+// Each implementation of ROS 2 has services of its own form on top of DDS.
+void Ros2Transport::OfferTrigger(const std::string&, std::function<std::string()>) {}
+std::unique_ptr<Publication> Ros2Transport::Advertise(const TopicSettings& topic) {
+  return implementation_->Advertise(topic);
+}
+
+void Ros2Transport::Log(Severity severity, const std::string& line) {
+  static constexpr const char* kNames[] = {"", "warning: ", "error: "};
+  std::fprintf(stderr, "plumbline-ros2: %s%s\n", kNames[static_cast<int>(severity)], line.c_str());
+}
+
+}  // namespace plumbline::ros_node

@@ -1,0 +1,363 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/datasets/open_dataset.h"
+#include "plumbline/io/trajectory_io.h"
+
+#include "dds_peer.h"
+#include "messages.h"
+#include "tests/e2e/program.h"
+#include "tests/support/data_folder.h"
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+using Image = sensor_msgs_msg_dds__Image_;
+using PoseStamped = geometry_msgs_msg_dds__PoseStamped_;
+using Odometry = nav_msgs_msg_dds__Odometry_;
+using Transforms = tf2_msgs_msg_dds__TFMessage_;
+using Nodes = rmw_dds_common_msg_dds__ParticipantEntitiesInfo_;
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+// Of this process alone.
+unsigned Domain() { return 1 + static_cast<unsigned>(::getpid()) % 200; }
+
+// plumbline-ros2 while it runs, with its lines on standard error.
+class Ros2Node {
+ public:
+  explicit Ros2Node(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), PLUMBLINE_ROS2_BINARY);
+    std::vector<char*> argv;
+    for (std::string& word : arguments) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    child_ = ::fork();
+    if (child_ != 0) return;
+    ::setenv("ROS_DOMAIN_ID", std::to_string(Domain()).c_str(), 1);
+    ::setenv("ROS_LOCALHOST_ONLY", "1", 1);
+    const int file = ::open((folder_ / "stderr").c_str(), O_WRONLY | O_CREAT, 0600);
+    ::dup2(file, STDERR_FILENO);
+    ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+  ~Ros2Node() { Stop(); }
+  Ros2Node(const Ros2Node&) = delete;
+  Ros2Node& operator=(const Ros2Node&) = delete;
+
+  std::string Said() const { return Contents(folder_ / "stderr"); }
+  // Ends it as Ctrl-C does; returns its exit code, -1 if it crashed.
+  int Stop() {
+    if (child_ <= 0) return code_;
+    ::kill(child_, SIGINT);
+    return Wait();
+  }
+  int Wait() {
+    int status = 0;
+    ::waitpid(child_, &status, 0);
+    child_ = 0;
+    code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return code_;
+  }
+
+ private:
+  ScratchFolder folder_;
+  pid_t child_ = 0;
+  int code_ = 0;
+};
+
+// The message of an image; the pixels are the caller's.
+Image MessageOf(const GrayImage& image, std::int64_t stamp_ns, std::vector<std::uint8_t>& pixels) {
+  static std::string frame = "cam0", encoding = "mono8";
+  pixels.clear();
+  for (int y = 0; y < image.height(); ++y) {
+    pixels.insert(pixels.end(), image.row(y), image.row(y) + image.width());
+  }
+  Image message{};
+  message.header.stamp.sec = static_cast<std::int32_t>(stamp_ns / kSecond);
+  message.header.stamp.nanosec = static_cast<std::uint32_t>(stamp_ns % kSecond);
+  message.header.frame_id = frame.data();
+  message.encoding = encoding.data();
+  message.width = message.step = static_cast<std::uint32_t>(image.width());
+  message.height = static_cast<std::uint32_t>(image.height());
+  message.data._length = message.data._maximum = static_cast<std::uint32_t>(pixels.size());
+  message.data._buffer = pixels.data();
+  return message;
+}
+
+// Publishes the images of a pair.
+class PairPublisher {
+ public:
+  PairPublisher(DdsPeer& peer, PeerQos qos)
+      : left_(peer.MakeWriter("rt/cam0/image_raw", sensor_msgs_msg_dds__Image__desc, qos)),
+        right_(peer.MakeWriter("rt/cam1/image_raw", sensor_msgs_msg_dds__Image__desc, qos)) {}
+
+  bool HasReaders() const { return DdsPeer::HasReader(left_) && DdsPeer::HasReader(right_); }
+  void Publish(const SensorFrame& frame) {
+    std::vector<std::uint8_t> pixels;
+    const Image left = MessageOf(frame.left, frame.stamp_ns, pixels);
+    dds_write(left_, &left);
+    const Image right = MessageOf(*frame.right, frame.stamp_ns, pixels);
+    dds_write(right_, &right);
+  }
+
+ private:
+  dds_entity_t left_, right_;
+};
+
+const std::vector<std::string> kPairArguments = {"--ros-args",
+                                                 "-r",
+                                                 "left/image:=/cam0/image_raw",
+                                                 "-r",
+                                                 "right/image:=/cam1/image_raw",
+                                                 "-p",
+                                                 "sensor:=stereo",
+                                                 "-p",
+                                                 "camera:=euroc",
+                                                 "-p",
+                                                 "base_frame:=cam0",
+                                                 "-p",
+                                                 "reliability:=reliable",
+                                                 "-p",
+                                                 "options.slam.mode:=lockstep"};
+
+std::vector<std::string> PairArguments(const std::vector<std::string>& more = {}) {
+  std::vector<std::string> all = kPairArguments;
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+std::int64_t StampOf(const std_msgs_msg_dds__Header_& header) {
+  return header.stamp.sec * kSecond + header.stamp.nanosec;
+}
+
+Rigid3 MotionOf(const geometry_msgs_msg_dds__Pose_& pose) {
+  const auto& q = pose.orientation;
+  const auto& p = pose.position;
+  return {Eigen::Quaterniond(q.w, q.x, q.y, q.z), {p.x, p.y, p.z}};
+}
+
+class Ros2NodeTest : public testing::Test {
+ protected:
+  // Frames of MH_01, or none.
+  void SetUp() override {
+    sequence_ = FindData("euroc/MH_01_easy_first250");
+    if (sequence_) dataset_ = OpenDataset(*sequence_, {});
+  }
+
+  std::optional<std::filesystem::path> sequence_;
+  std::unique_ptr<Dataset> dataset_;
+  DdsPeer peer_{Domain()};
+};
+
+TEST_F(Ros2NodeTest, LockstepGivesTheTrajectoryOfTheFolder) {
+  if (!dataset_) GTEST_SKIP() << "the sequence is not there";
+  constexpr std::size_t kFrames = 25;
+  const ScratchFolder folder;
+  const std::string out = (folder / "run").string();
+  const Outcome run = RunProgram(folder,
+                                 "run " + Quoted(*sequence_) + " --camera euroc --to " +
+                                     std::to_string(kFrames) + " --quiet --out " + Quoted(out));
+  ASSERT_EQ(run.code, 0) << run.err;
+
+  Ros2Node node(PairArguments({"-p", "map_period:=0.2"}));
+  PairPublisher publisher(peer_, {});
+  const auto poses =
+      peer_.MakeReader("rt/plumbline/pose", geometry_msgs_msg_dds__PoseStamped__desc);
+  const auto odometry = peer_.MakeReader("rt/plumbline/odometry", nav_msgs_msg_dds__Odometry__desc);
+  const auto tf = peer_.MakeReader("rt/tf", tf2_msgs_msg_dds__TFMessage__desc);
+  ASSERT_TRUE(WaitUntil([&] {
+    return publisher.HasReaders() && DdsPeer::HasWriter(poses) && DdsPeer::HasWriter(odometry) &&
+           DdsPeer::HasWriter(tf);
+  })) << node.Said();
+
+  Trajectory trajectory;
+  for (std::size_t i = 0; i < kFrames; ++i) {
+    const auto frame = dataset_->Read(i);
+    ASSERT_TRUE(frame);
+    publisher.Publish(*frame);
+    bool came = false;
+    ASSERT_TRUE(WaitUntil([&] {
+      return came || DdsPeer::Take<PoseStamped>(poses, [&](const PoseStamped& message) {
+               EXPECT_STREQ(message.header.frame_id, "map");
+               EXPECT_EQ(StampOf(message.header), frame->stamp_ns);
+               trajectory.push_back({StampOf(message.header), MotionOf(message.pose)});
+               came = true;
+             });
+    })) << node.Said();
+  }
+  EXPECT_EQ(FormatTum(trajectory), Contents(std::filesystem::path(out) / "trajectory_causal.txt"));
+
+  // All of a frame: the covariance is known but for the first, and tf leads from map to base.
+  std::size_t with_covariance = 0, count = 0;
+  while (DdsPeer::Take<Odometry>(odometry, [&](const Odometry& message) {
+    EXPECT_STREQ(message.header.frame_id, "odom");
+    EXPECT_STREQ(message.child_frame_id, "cam0");
+    ++count;
+    if (message.pose.covariance[0] > 0) ++with_covariance;
+    EXPECT_EQ(message.pose.covariance[1], message.pose.covariance[6]);
+  })) {
+  }
+  EXPECT_EQ(count, kFrames);
+  EXPECT_GE(with_covariance, kFrames - 2);
+  count = 0;
+  while (DdsPeer::Take<Transforms>(tf, [&](const Transforms& message) {
+    ++count;
+    ASSERT_EQ(message.transforms._length, 2U);
+    EXPECT_STREQ(message.transforms._buffer[0].child_frame_id, "cam0");
+    EXPECT_STREQ(message.transforms._buffer[1].child_frame_id, "odom");
+    EXPECT_EQ(message.transforms._buffer[1].transform.rotation.w, 1);
+  })) {
+  }
+  EXPECT_EQ(count, kFrames);
+
+  // Who comes late gets the map and the state.
+  const PeerQos latched{true, true};
+  DdsPeer late(Domain());
+  const auto points =
+      late.MakeReader("rt/plumbline/points", sensor_msgs_msg_dds__PointCloud2__desc, latched);
+  const auto lines =
+      late.MakeReader("rt/plumbline/lines", visualization_msgs_msg_dds__MarkerArray__desc, latched);
+  const auto path = late.MakeReader("rt/plumbline/path", nav_msgs_msg_dds__Path__desc, latched);
+  const auto state = late.MakeReader("rt/plumbline/state", std_msgs_msg_dds__String__desc, latched);
+  ASSERT_TRUE(WaitUntil([&] {
+    return DdsPeer::HasWriter(points) && DdsPeer::HasWriter(lines) && DdsPeer::HasWriter(path);
+  }));
+  const auto next = dataset_->Read(kFrames);
+  ASSERT_TRUE(next);
+  publisher.Publish(*next);
+  bool has_points = false, has_lines = false, has_path = false, has_state = false;
+  EXPECT_TRUE(WaitUntil([&] {
+    DdsPeer::Take<sensor_msgs_msg_dds__PointCloud2_>(points, [&](const auto& message) {
+      EXPECT_STREQ(message.header.frame_id, "map");
+      EXPECT_EQ(message.fields._length, 3U);
+      EXPECT_STREQ(message.fields._buffer[2].name, "z");
+      EXPECT_EQ(message.fields._buffer[2].offset, 8U);
+      EXPECT_EQ(message.data._length, message.width * message.point_step);
+      has_points = message.width > 100;
+    });
+    DdsPeer::Take<visualization_msgs_msg_dds__MarkerArray_>(lines, [&](const auto& message) {
+      ASSERT_EQ(message.markers._length, 1U);
+      const auto& marker = message.markers._buffer[0];
+      EXPECT_EQ(marker.type, 5);
+      EXPECT_EQ(marker.pose.orientation.w, 1);
+      EXPECT_EQ(marker.color.a, 1);
+      EXPECT_EQ(marker.points._length % 2, 0U);
+      has_lines = marker.points._length > 10;
+    });
+    DdsPeer::Take<nav_msgs_msg_dds__Path_>(path, [&](const auto& message) {
+      has_path = message.poses._length >= 1 && message.poses._buffer[0].pose.orientation.w == 1;
+    });
+    DdsPeer::Take<std_msgs_msg_dds__String_>(
+        state, [&](const auto& message) { has_state = message.data == std::string("tracked"); });
+    return has_points && has_lines && has_path && has_state;
+  })) << has_points
+      << has_lines << has_path << has_state << node.Said();
+  EXPECT_EQ(node.Stop(), 0) << node.Said();
+}
+
+TEST_F(Ros2NodeTest, GoesOnAfterBrokenMessages) {
+  if (!dataset_) GTEST_SKIP() << "the sequence is not there";
+  Ros2Node node(PairArguments());
+  dds_topic_descriptor_t in_another_name = Broken_desc;
+  in_another_name.m_typename = sensor_msgs_msg_dds__Image__desc.m_typename;
+  in_another_name.type_information = in_another_name.type_mapping = {nullptr, 0};
+  const auto frame = dataset_->Read(0);
+  ASSERT_TRUE(frame);
+  {
+    DdsPeer other(Domain());
+    const auto broken = other.MakeWriter("rt/cam0/image_raw", in_another_name);
+    ASSERT_TRUE(WaitUntil([&] { return DdsPeer::HasReader(broken); })) << node.Said();
+    const Broken bytes = {{1, 2, 3, 4, 5, 6, 7, 255, 255, 255, 255}};
+    dds_write(broken, &bytes);
+    EXPECT_TRUE(WaitUntil([&] {
+      return node.Said().find(
+                 "/cam0/image_raw: expected a sensor_msgs/Image, found 15 bytes that "
+                 "are none") != std::string::npos;
+    })) << node.Said();
+  }
+  // The publisher is gone. Another one comes, with an image of fewer bytes than it says first.
+  PairPublisher publisher(peer_, {});
+  const auto left = peer_.MakeWriter("rt/cam0/image_raw", sensor_msgs_msg_dds__Image__desc);
+  const auto right = peer_.MakeWriter("rt/cam1/image_raw", sensor_msgs_msg_dds__Image__desc);
+  const auto poses =
+      peer_.MakeReader("rt/plumbline/pose", geometry_msgs_msg_dds__PoseStamped__desc);
+  ASSERT_TRUE(WaitUntil([&] {
+    return publisher.HasReaders() && DdsPeer::HasReader(left) && DdsPeer::HasReader(right) &&
+           DdsPeer::HasWriter(poses);
+  })) << node.Said();
+  std::vector<std::uint8_t> pixels;
+  Image lying = MessageOf(frame->left, frame->stamp_ns - kSecond, pixels);
+  lying.height = 0xffffffff;
+  dds_write(left, &lying);
+  dds_write(right, &lying);
+  EXPECT_TRUE(WaitUntil([&] {
+    return node.Said().find(
+               "a frame is left out: /cam0/image_raw: "
+               "expected") != std::string::npos;
+  })) << node.Said();
+  publisher.Publish(*frame);
+  EXPECT_TRUE(WaitUntil([&] {
+    return DdsPeer::Take<PoseStamped>(poses, [](const PoseStamped&) {});
+  })) << node.Said();
+  EXPECT_EQ(node.Stop(), 0) << node.Said();
+}
+
+TEST_F(Ros2NodeTest, TellsAPublisherOfAnotherQos) {
+  Ros2Node node(PairArguments());
+  PairPublisher publisher(peer_, {false, false});
+  EXPECT_TRUE(WaitUntil([&] {
+    return node.Said().find("/cam0/image_raw: a publisher has another QoS") != std::string::npos;
+  })) << node.Said();
+  EXPECT_FALSE(publisher.HasReaders());
+}
+
+TEST_F(Ros2NodeTest, IntroducesItselfAsANode) {
+  Ros2Node node({"--ros-args", "-r", "__node:=slam", "-r", "__ns:=/robot", "-p", "camera:=euroc"});
+  const auto reader = peer_.MakeReader(
+      "ros_discovery_info", rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc, {true, true});
+  bool came = false;
+  EXPECT_TRUE(WaitUntil([&] {
+    return came || DdsPeer::Take<Nodes>(reader, [&](const Nodes& message) {
+             ASSERT_EQ(message.node_entities_info_seq._length, 1U);
+             const auto& one = message.node_entities_info_seq._buffer[0];
+             EXPECT_STREQ(one.node_namespace, "/robot");
+             EXPECT_STREQ(one.node_name, "slam");
+             EXPECT_EQ(one.reader_gid_seq._length, 3U);  // image, tf, tf_static
+             EXPECT_EQ(one.writer_gid_seq._length, 7U);
+             came = true;
+           });
+  })) << node.Said();
+  const auto state =
+      peer_.MakeReader("rt/robot/slam/pose", geometry_msgs_msg_dds__PoseStamped__desc);
+  EXPECT_TRUE(WaitUntil([&] { return DdsPeer::HasWriter(state); })) << node.Said();
+}
+
+TEST(Ros2NodeArguments, AreCheckedBeforeAnythingStarts) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"sensor:=radar", "sensor: expected mono, stereo or rgbd, found radar"},
+      {"queue_size:=0", "queue_size: expected at least 1, found 0"},
+      {"kamera:=euroc", "kamera: expected a parameter of this node (base_frame, camera"},
+      {"use_sim_time:=3", "use_sim_time: expected a truth value"},
+  };
+  for (const auto& [parameter, message] : cases) {
+    Ros2Node node({"-p", parameter});
+    EXPECT_EQ(node.Wait(), 2) << parameter;
+    EXPECT_THAT(node.Said(), testing::StartsWith("plumbline-ros2: " + message));
+  }
+}
+
+}  // namespace
+}  // namespace plumbline
