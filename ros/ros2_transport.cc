@@ -24,6 +24,7 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
 
 namespace plumbline::ros_node {
 namespace {
@@ -37,6 +38,8 @@ constexpr int kOk = 0;
 constexpr std::uint32_t kFirstSize = 1024;  // bytes of a message before one is known
 constexpr std::uint32_t kSocketBuffer = 8U
                                         << 20U;  // bytes; a few images, as far as the system has it
+
+constexpr std::uint32_t kMostLocalPeers = 10;
 
 // Messages of any type, as their bytes.
 class RawType : public dds::TopicDataType {
@@ -120,7 +123,16 @@ class Ros2Transport::Implementation {
     qos.user_data().data_vec(std::vector<rtps::octet>(enclave.begin(), enclave.end()));
     const auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
     udp->receiveBufferSize = udp->sendBufferSize = kSocketBuffer;
-    if (settings.localhost_only) udp->interfaceWhiteList = {"127.0.0.1"};
+    if (settings.localhost_only) {
+      // Loopback often has no multicast: others are looked for at their usual ports, too.
+      udp->interfaceWhiteList = {"127.0.0.1"};
+      udp->maxInitialPeersRange = kMostLocalPeers;
+      for (const char* address : {"127.0.0.1", "239.255.0.1"}) {
+        rtps::Locator_t peer;
+        rtps::IPLocator::setIPv4(peer, address);
+        qos.wire_protocol().builtin.initialPeersList.push_back(peer);
+      }
+    }
     qos.transport().use_builtin_transports = false;
     qos.transport().user_transports = {udp};
     participant_ = OrFail(

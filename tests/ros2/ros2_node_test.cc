@@ -18,6 +18,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
 
 namespace plumbline {
 namespace {
@@ -44,11 +45,14 @@ class Ros2Node {
     std::vector<char*> argv;
     for (std::string& word : arguments) argv.push_back(word.data());
     argv.push_back(nullptr);
+    const std::string domain = std::to_string(Domain());
     child_ = ::fork();
     if (child_ != 0) return;
-    ::setenv("ROS_DOMAIN_ID", std::to_string(Domain()).c_str(), 1);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that fails leaves nothing running
+    ::setenv("ROS_DOMAIN_ID", domain.c_str(), 1);
     ::setenv("ROS_LOCALHOST_ONLY", "1", 1);
     const int file = ::open((folder_ / "stderr").c_str(), O_WRONLY | O_CREAT, 0600);
+    ::dup2(file, STDOUT_FILENO);
     ::dup2(file, STDERR_FILENO);
     ::execv(argv[0], argv.data());
     ::_exit(127);
