@@ -277,7 +277,6 @@ TEST_F(Ros2NodeTest, GoesOnAfterBrokenMessages) {
   Ros2Node node(PairArguments());
   dds_topic_descriptor_t in_another_name = Broken_desc;
   in_another_name.m_typename = sensor_msgs_msg_dds__Image__desc.m_typename;
-  in_another_name.type_information = in_another_name.type_mapping = {nullptr, 0};
   const auto frame = dataset_->Read(0);
   ASSERT_TRUE(frame);
   {
@@ -288,7 +287,7 @@ TEST_F(Ros2NodeTest, GoesOnAfterBrokenMessages) {
     dds_write(broken, &bytes);
     EXPECT_TRUE(WaitUntil([&] {
       return node.Said().find(
-                 "/cam0/image_raw: expected a sensor_msgs/Image, found 15 bytes that "
+                 "/cam0/image_raw: expected a sensor_msgs/Image, found 16 bytes that "
                  "are none") != std::string::npos;
     })) << node.Said();
   }
@@ -309,8 +308,8 @@ TEST_F(Ros2NodeTest, GoesOnAfterBrokenMessages) {
   dds_write(right, &lying);
   EXPECT_TRUE(WaitUntil([&] {
     return node.Said().find(
-               "a frame is left out: /cam0/image_raw: "
-               "expected") != std::string::npos;
+               "a frame is left out: /cam0/image_raw: an image of 752x4294967295 pixels") !=
+           std::string::npos;
   })) << node.Said();
   publisher.Publish(*frame);
   EXPECT_TRUE(WaitUntil([&] {
