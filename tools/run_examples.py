@@ -44,6 +44,7 @@ OTHER_PROGRAMS = {
     "pip": "the same",
     "export": "ROS",
     "roslaunch": "ROS; tests/ros run the node",
+    "build/release/plumbline-ros2": "DDS; tests/ros2 run the node",
 }
 # Names that stand for the reader's own, and what they are here.
 SEQUENCES = ["PATH", "SEQUENCE", "REFERENCE", "V1_01", "V1_02", "data/MH_01_easy", "data/V1_01_easy",

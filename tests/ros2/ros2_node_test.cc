@@ -9,6 +9,7 @@
 #include "tests/support/data_folder.h"
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -166,6 +167,75 @@ class Ros2NodeTest : public testing::Test {
   DdsPeer peer_{Domain()};
 };
 
+// One message for each frame: the covariance is known but for the first, and tf leads from the map
+// to the base.
+void ExpectOdometry(dds_entity_t odometry, dds_entity_t tf, std::size_t frames) {
+  std::size_t with_covariance = 0, count = 0;
+  while (DdsPeer::Take<Odometry>(odometry, [&](const Odometry& message) {
+    EXPECT_STREQ(message.header.frame_id, "odom");
+    EXPECT_STREQ(message.child_frame_id, "cam0");
+    ++count;
+    if (message.pose.covariance[0] > 0) ++with_covariance;
+    EXPECT_EQ(message.pose.covariance[1], message.pose.covariance[6]);
+  })) {
+  }
+  EXPECT_EQ(count, frames);
+  EXPECT_GE(with_covariance, frames - 2);
+  count = 0;
+  while (DdsPeer::Take<Transforms>(tf, [&](const Transforms& message) {
+    ++count;
+    ASSERT_EQ(message.transforms._length, 2U);
+    EXPECT_STREQ(message.transforms._buffer[0].child_frame_id, "cam0");
+    EXPECT_STREQ(message.transforms._buffer[1].child_frame_id, "odom");
+    EXPECT_EQ(message.transforms._buffer[1].transform.rotation.w, 1);
+  })) {
+  }
+  EXPECT_EQ(count, frames);
+}
+
+// Who comes late gets the map and the state. `publish`: one more frame.
+void ExpectLatched(const std::function<void()>& publish, const Ros2Node& node) {
+  const PeerQos latched{true, true};
+  DdsPeer late(Domain());
+  const auto points =
+      late.MakeReader("rt/plumbline/points", sensor_msgs_msg_dds__PointCloud2__desc, latched);
+  const auto lines =
+      late.MakeReader("rt/plumbline/lines", visualization_msgs_msg_dds__MarkerArray__desc, latched);
+  const auto path = late.MakeReader("rt/plumbline/path", nav_msgs_msg_dds__Path__desc, latched);
+  const auto state = late.MakeReader("rt/plumbline/state", std_msgs_msg_dds__String__desc, latched);
+  ASSERT_TRUE(WaitUntil([&] {
+    return DdsPeer::HasWriter(points) && DdsPeer::HasWriter(lines) && DdsPeer::HasWriter(path);
+  }));
+  publish();
+  bool has_points = false, has_lines = false, has_path = false, has_state = false;
+  EXPECT_TRUE(WaitUntil([&] {
+    DdsPeer::Take<sensor_msgs_msg_dds__PointCloud2_>(points, [&](const auto& message) {
+      EXPECT_STREQ(message.header.frame_id, "map");
+      EXPECT_EQ(message.fields._length, 3U);
+      EXPECT_STREQ(message.fields._buffer[2].name, "z");
+      EXPECT_EQ(message.fields._buffer[2].offset, 8U);
+      EXPECT_EQ(message.data._length, message.width * message.point_step);
+      has_points = message.width > 100;
+    });
+    DdsPeer::Take<visualization_msgs_msg_dds__MarkerArray_>(lines, [&](const auto& message) {
+      ASSERT_EQ(message.markers._length, 1U);
+      const auto& marker = message.markers._buffer[0];
+      EXPECT_EQ(marker.type, 5);
+      EXPECT_EQ(marker.pose.orientation.w, 1);
+      EXPECT_EQ(marker.color.a, 1);
+      EXPECT_EQ(marker.points._length % 2, 0U);
+      has_lines = marker.points._length > 10;
+    });
+    DdsPeer::Take<nav_msgs_msg_dds__Path_>(path, [&](const auto& message) {
+      has_path = message.poses._length >= 1 && message.poses._buffer[0].pose.orientation.w == 1;
+    });
+    DdsPeer::Take<std_msgs_msg_dds__String_>(
+        state, [&](const auto& message) { has_state = message.data == std::string("tracked"); });
+    return has_points && has_lines && has_path && has_state;
+  })) << has_points
+      << has_lines << has_path << has_state << node.Said();
+}
+
 TEST_F(Ros2NodeTest, LockstepGivesTheTrajectoryOfTheFolder) {
   if (!dataset_) GTEST_SKIP() << "the sequence is not there";
   constexpr std::size_t kFrames = 25;
@@ -204,71 +274,10 @@ TEST_F(Ros2NodeTest, LockstepGivesTheTrajectoryOfTheFolder) {
   }
   EXPECT_EQ(FormatTum(trajectory), Contents(std::filesystem::path(out) / "trajectory_causal.txt"));
 
-  // All of a frame: the covariance is known but for the first, and tf leads from map to base.
-  std::size_t with_covariance = 0, count = 0;
-  while (DdsPeer::Take<Odometry>(odometry, [&](const Odometry& message) {
-    EXPECT_STREQ(message.header.frame_id, "odom");
-    EXPECT_STREQ(message.child_frame_id, "cam0");
-    ++count;
-    if (message.pose.covariance[0] > 0) ++with_covariance;
-    EXPECT_EQ(message.pose.covariance[1], message.pose.covariance[6]);
-  })) {
-  }
-  EXPECT_EQ(count, kFrames);
-  EXPECT_GE(with_covariance, kFrames - 2);
-  count = 0;
-  while (DdsPeer::Take<Transforms>(tf, [&](const Transforms& message) {
-    ++count;
-    ASSERT_EQ(message.transforms._length, 2U);
-    EXPECT_STREQ(message.transforms._buffer[0].child_frame_id, "cam0");
-    EXPECT_STREQ(message.transforms._buffer[1].child_frame_id, "odom");
-    EXPECT_EQ(message.transforms._buffer[1].transform.rotation.w, 1);
-  })) {
-  }
-  EXPECT_EQ(count, kFrames);
-
-  // Who comes late gets the map and the state.
-  const PeerQos latched{true, true};
-  DdsPeer late(Domain());
-  const auto points =
-      late.MakeReader("rt/plumbline/points", sensor_msgs_msg_dds__PointCloud2__desc, latched);
-  const auto lines =
-      late.MakeReader("rt/plumbline/lines", visualization_msgs_msg_dds__MarkerArray__desc, latched);
-  const auto path = late.MakeReader("rt/plumbline/path", nav_msgs_msg_dds__Path__desc, latched);
-  const auto state = late.MakeReader("rt/plumbline/state", std_msgs_msg_dds__String__desc, latched);
-  ASSERT_TRUE(WaitUntil([&] {
-    return DdsPeer::HasWriter(points) && DdsPeer::HasWriter(lines) && DdsPeer::HasWriter(path);
-  }));
+  ExpectOdometry(odometry, tf, kFrames);
   const auto next = dataset_->Read(kFrames);
   ASSERT_TRUE(next);
-  publisher.Publish(*next);
-  bool has_points = false, has_lines = false, has_path = false, has_state = false;
-  EXPECT_TRUE(WaitUntil([&] {
-    DdsPeer::Take<sensor_msgs_msg_dds__PointCloud2_>(points, [&](const auto& message) {
-      EXPECT_STREQ(message.header.frame_id, "map");
-      EXPECT_EQ(message.fields._length, 3U);
-      EXPECT_STREQ(message.fields._buffer[2].name, "z");
-      EXPECT_EQ(message.fields._buffer[2].offset, 8U);
-      EXPECT_EQ(message.data._length, message.width * message.point_step);
-      has_points = message.width > 100;
-    });
-    DdsPeer::Take<visualization_msgs_msg_dds__MarkerArray_>(lines, [&](const auto& message) {
-      ASSERT_EQ(message.markers._length, 1U);
-      const auto& marker = message.markers._buffer[0];
-      EXPECT_EQ(marker.type, 5);
-      EXPECT_EQ(marker.pose.orientation.w, 1);
-      EXPECT_EQ(marker.color.a, 1);
-      EXPECT_EQ(marker.points._length % 2, 0U);
-      has_lines = marker.points._length > 10;
-    });
-    DdsPeer::Take<nav_msgs_msg_dds__Path_>(path, [&](const auto& message) {
-      has_path = message.poses._length >= 1 && message.poses._buffer[0].pose.orientation.w == 1;
-    });
-    DdsPeer::Take<std_msgs_msg_dds__String_>(
-        state, [&](const auto& message) { has_state = message.data == std::string("tracked"); });
-    return has_points && has_lines && has_path && has_state;
-  })) << has_points
-      << has_lines << has_path << has_state << node.Said();
+  ExpectLatched([&] { publisher.Publish(*next); }, node);
   EXPECT_EQ(node.Stop(), 0) << node.Said();
 }
 
