@@ -419,6 +419,17 @@ def camera_file_problem(stage, lines):
     return None
 
 
+def imu_file_problem(stage, lines):
+    """A calibration of an inertial sensor must be taken with samples of its rate, and place it."""
+    samples, calibration = stage.folder / "imu.csv", stage.folder / "imu.yaml"
+    samples.write_text("".join(f"{5_000_000 * k},{k % 3 / 1000},0,0,0,0,9.81\n" for k in range(400)))
+    calibration.write_text("\n".join(lines))
+    done = run([stage.program, "info", samples, "--imu", calibration], stage.folder)
+    if done.returncode or "from the left camera" not in done.stdout:
+        return f"expected the calibration of an inertial sensor: {done.stdout}{done.stderr}"
+    return None
+
+
 def cpp_problem(stage, lines, compiler, generated):
     """A piece of C++ must be a value of a declaration of the laboratory."""
     source = stage.folder / "example.cc"
@@ -433,7 +444,7 @@ def other_block_problems(stage, page, found, arguments):
     for first, language, lines in found:
         problem = None
         if language == "yaml":
-            problem = camera_file_problem(stage, lines)
+            problem = (imu_file_problem if lines[0].startswith("imu:") else camera_file_problem)(stage, lines)
         elif language == "cpp":
             problem = cpp_problem(stage, lines, arguments.compiler, arguments.generated)
         elif language not in ("", "math", "python", "sh"):
@@ -499,6 +510,10 @@ def moving(frames=8):
         left, right = (numpy.ascontiguousarray(texture[:480, x:x + 640]) for x in (40 + 2 * k, 70 + 2 * k))
         yield 50_000_000 * k, left, right
 source = moving()
+launch = types.ModuleType("launch")          # ROS 2's is not among Debian's packages
+launch.LaunchDescription, launch.actions = list, types.ModuleType("launch.actions")
+launch.actions.ExecuteProcess = lambda cmd, output: cmd
+sys.modules.update({"launch": launch, "launch.actions": launch.actions})
 """
 
 
@@ -517,6 +532,8 @@ def python_problems(stage, page, found, package):
         if language == "python" and SENDER not in "\n".join(lines):
             text = "\n" * (first - 1) + "\n".join(lines)
             program += f"exec(compile({text!r}, {str(page)!r}, 'exec'))\n"
+            if "def generate_launch_description" in text:
+                program += "generate_launch_description()\n"
     for number, code in sentences(page):
         name = re.match(r"(?:plumbline\.)?([A-Z]\w+)\.([a-z]\w*)(?=[\W]|$)", code) or \
             re.match(r"plumbline\.()(\w+)\(", code)
@@ -524,7 +541,7 @@ def python_problems(stage, page, found, package):
             program += f"named({name[1]!r}, {name[2]!r}, 'line {number}, {name[0]}')\n"
     if not program:
         return
-    done = run([sys.executable, "-B", "-c", "import sys, plumbline" + CHECK_NAME + PRELUDE + program],
+    done = run([sys.executable, "-B", "-c", "import sys, types, plumbline" + CHECK_NAME + PRELUDE + program],
                stage.page_folder(page, "short"), env=dict(os.environ, PYTHONPATH=str(package)))
     if done.returncode:
         yield f"{page.relative_to(ROOT)}: " + " | ".join(done.stderr.strip().splitlines()[-4:])
