@@ -23,18 +23,17 @@ constexpr double kAllowed = 5e-4;
 // The cost of a map's points as a function of the correction, in pixels at the border.
 class Profile {
  public:
-  Profile(const BaProblem& problem, const StopCheck& stop) : problem_(problem), stop_(stop) {
-    problem_.lines.clear();
-    problem_.line_observations.clear();
-    problem_.axes.clear();
-    problem_.parallel_lines.clear();
-  }
+  Profile(const BaProblem& problem, const StopCheck& stop) : problem_(problem), stop_(stop) {}
 
   // Returns nullopt if the numbers are not finite, and when stopped.
   std::optional<double> At(double border_px) {
     const auto known = solved_.find(border_px);
     if (known != solved_.end()) return known->second.final_cost;
-    BaProblem corrected = problem_;
+    BaProblem corrected;
+    corrected.camera = problem_.camera;
+    corrected.poses = problem_.poses;
+    corrected.points = problem_.points;
+    corrected.point_observations = problem_.point_observations;
     if (!solved_.empty()) TakePosesAndPoints(Nearest(border_px), corrected);
     Correct({corrected.camera, border_px}, corrected);
     LocalBaOptions options;
@@ -65,7 +64,7 @@ class Profile {
   }
 
  private:
-  BaProblem problem_;
+  const BaProblem& problem_;
   const StopCheck& stop_;
   std::map<double, BaResult> solved_;  // the solution for each correction
 };

@@ -36,6 +36,9 @@ MapProblem MakeWholeMap(const Map& map,
   MapProblem whole;
   const KeyFrameId first = map.keyframes().begin()->first;
   MapProblemBuilder builder(map, imaging, weights, first, whole);
+  std::size_t observations = 0;
+  for (const auto& [id, point] : map.points()) observations += point.observations.size();
+  whole.problem.point_observations.reserve(observations);
   for (const auto& [id, keyframe] : map.keyframes()) builder.AddPose(id, id == first);
   for (const auto& [id, point] : map.points()) {
     if (IsToStop(stop)) return whole;
@@ -57,6 +60,35 @@ bool TakesTooLong(const MapProblem& whole, int limit, const StopCheck& stop) {
   return FullSize(PlanElimination(SharingPoses(whole.problem, stop), stop)) > limit;
 }
 
+// Poses and points of a problem, to be kept and put back without its observations.
+struct PosesAndPoints {
+  std::vector<BaProblem::Pose> poses;
+  std::vector<Eigen::Vector3d> points;
+
+  void Exchange(BaProblem& problem) {
+    std::swap(poses, problem.poses);
+    std::swap(points, problem.points);
+  }
+};
+
+// Returns the solution with unconstrained and inconsistent poses fixed (SolveWithPoseLimits),
+// scaled as the poses and points `start` were (FixScaleToOldestKeyFrame). `start` has no pose fixed
+// but the first, so that all are scaled. The observations, the largest part of a problem, are not
+// copied.
+std::optional<BaResult> SolveAndFixScale(BaProblem& problem,
+                                         PosesAndPoints& start,
+                                         const LocalBaOptions& options,
+                                         BaSolver solve,
+                                         const PoseLimits& limits,
+                                         const StopCheck& stop) {
+  const auto fix_scale = [&](BaResult& solution) {
+    start.Exchange(problem);
+    FixScaleToOldestKeyFrame(problem, solution);
+    start.Exchange(problem);
+  };
+  return SolveWithPoseLimits(problem, options, solve, limits, fix_scale, stop);
+}
+
 // Adjusts poses and points, without lines, to a corrected lens. It starts from the places that were
 // found when the lens was learned, or else from those of the problem. Another lens changes the
 // scale from place to place by more than AdjustWholeMap accepts before it sees a tear in the map,
@@ -75,14 +107,8 @@ std::optional<BaResult> SolveForLens(const RadialCalibration& lens,
   ba.rounds = 1;
   ba.max_iterations = 40;
   ba.function_tolerance = 1e-6;
-  const BaProblem start = problem;  // without fixed poses, so that all are scaled
-  return SolveWithPoseLimits(
-      problem,
-      ba,
-      SolveLocalBa,
-      options.window.local_limits(),
-      [&](BaResult& solution) { FixScaleToOldestKeyFrame(start, solution); },
-      stop);
+  PosesAndPoints start{problem.poses, problem.points};
+  return SolveAndFixScale(problem, start, ba, SolveLocalBa, options.window.local_limits(), stop);
 }
 
 // Returns the poses and points of an adjustment, and the lens correction of the features combined
@@ -168,24 +194,22 @@ MapCorrection AdjustWholeMap(const Map& map,
           ? CalibrateRadialDistortion(whole.problem, map.correction().lens.border_px(), stop)
           : RadialCalibration{};
   Correct(learned.correction, whole.problem);
-  BaProblem problem = whole.problem;
+  PosesAndPoints start{whole.problem.poses, whole.problem.points};
   // A map that has a lens correction may have taken in keyframes of a map that had another one.
   if (!learned.poses.empty() || map.correction().lens.border_px() != 0) {
-    auto moved = SolveForLens(learned, options, problem, stop);
+    auto moved = SolveForLens(learned, options, whole.problem, stop);
     if (!moved) return {};
     FixScaleToOldestKeyFrame(whole.problem, *moved);
-    TakePosesAndPoints(*moved, problem);
+    TakePosesAndPoints(*moved, whole.problem);
   }
-  // FixScaleToOldestKeyFrame gets `whole.problem`, in which the poses fixed by SolveWithPoseLimits
-  // are free, so that it scales all poses.
-  const std::optional<BaResult> result = SolveWithPoseLimits(
-      problem,
-      options.ba,
-      lines.method.adjust_map,
-      options.window.whole_map_limits(),
-      [&](BaResult& solution) { FixScaleToOldestKeyFrame(whole.problem, solution); },
-      stop);
+  const std::optional<BaResult> result = SolveAndFixScale(whole.problem,
+                                                          start,
+                                                          options.ba,
+                                                          lines.method.adjust_map,
+                                                          options.window.whole_map_limits(),
+                                                          stop);
   if (!result) return {};
+  start.Exchange(whole.problem);
   return CorrectionOf(map, whole, learned, *result);
 }
 

@@ -99,6 +99,8 @@ class BaLandmarks {
   static std::size_t HeapBytes(const std::vector<T>& items) {
     return items.capacity() * sizeof(T);
   }
+  // The largest part of the memory of an adjustment, thus in single precision.
+  using KeptCoupling = Coupling<Kind::kDof, float>;
   struct Packed {
     Term term;
     int pose = 0;
@@ -125,7 +127,7 @@ class BaLandmarks {
                  double still,
                  const std::vector<BaPose>& trial_poses,
                  const HuberThresholds& huber);
-  std::span<Coupling<Kind::kDof>> Couplings(std::size_t landmark) {
+  std::span<KeptCoupling> Couplings(std::size_t landmark) {
     return {couplings_.data() + coupling_begin_[landmark],
             couplings_.data() + coupling_begin_[landmark + 1]};
   }
@@ -141,7 +143,8 @@ class BaLandmarks {
   BaParallelLines parallel_;
   std::vector<char> used_;
   std::vector<double> chi2_;
-  std::vector<Coupling<Kind::kDof>> couplings_;
+  std::vector<KeptCoupling> couplings_;                 // after the elimination
+  std::vector<Coupling<Kind::kDof>> being_eliminated_;  // couplings of one landmark
   std::vector<EliminatedLandmark<Kind::kDof>> eliminated_;
   std::vector<double> cost_, trial_cost_;
   std::vector<double> own_lambda_;  // damping of a landmark moved on its own
@@ -159,23 +162,25 @@ BaLandmarks<Kind>::BaLandmarks(const RectifiedCamera& camera,
   Sort(observations);
   coupling_begin_.assign(n + 1, 0);
   observations_.reserve(observations.size());
+  std::vector<int> coupled;  // pose of each coupling
   for (std::size_t i = 0; i < n; ++i) {
-    coupling_begin_[i] = couplings_.size();
+    coupling_begin_[i] = coupled.size();
     int last_pose = -1;
     for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
       const auto& observation = observations[original_[k]];
       const int free_index = poses[static_cast<std::size_t>(observation.pose)].free_index;
       if (free_index >= 0 && observation.pose != last_pose) {
-        couplings_.emplace_back();
-        couplings_.back().pose = free_index;
+        coupled.push_back(free_index);
       }
       last_pose = observation.pose;
       observations_.push_back({observation.term,
                                observation.pose,
-                               free_index < 0 ? -1 : static_cast<int>(couplings_.size()) - 1});
+                               free_index < 0 ? -1 : static_cast<int>(coupled.size()) - 1});
     }
   }
-  coupling_begin_[n] = couplings_.size();
+  coupling_begin_[n] = coupled.size();
+  couplings_.resize(coupled.size());
+  for (std::size_t k = 0; k < coupled.size(); ++k) couplings_[k].pose = coupled[k];
   used_.assign(observations.size(), 1);
   chi2_.assign(observations.size(), 0);
   eliminated_.resize(n);
@@ -248,7 +253,7 @@ LandmarkEquations<Kind::kDof> BaLandmarks<Kind>::Linearize(std::size_t i,
     typename Kind::Target target{landmark, nullptr, nullptr};
     if (solver != nullptr && o.coupling >= 0) {
       target.pose = &solver->pose(pose.free_index);
-      target.W = &couplings_[static_cast<std::size_t>(o.coupling)].W;
+      target.W = &being_eliminated_[static_cast<std::size_t>(o.coupling) - coupling_begin_[i]].W;
     }
     Kind::Add(camera_, pose, view, o.term, Kind::Huber(o.term, huber), target);
   }
@@ -265,10 +270,15 @@ void BaLandmarks<Kind>::Eliminate(const std::vector<BaPose>& poses,
                                   double lambda,
                                   SchurSolver& solver) {
   for (std::size_t i = 0; i < states_.size(); ++i) {
-    const std::span<Coupling<Kind::kDof>> couplings = Couplings(i);
-    for (auto& coupling : couplings) coupling.W.setZero();
+    const std::span<KeptCoupling> kept = Couplings(i);
+    being_eliminated_.assign(kept.size(), {});
+    for (std::size_t k = 0; k < kept.size(); ++k) being_eliminated_[k].pose = kept[k].pose;
     const LandmarkEquations<Kind::kDof> landmark = Linearize(i, states_[i], poses, huber, &solver);
-    eliminated_[i] = solver.Eliminate<Kind::kDof>(landmark, lambda + own_lambda_[i], couplings);
+    eliminated_[i] = solver.Eliminate<Kind::kDof>(
+        landmark, lambda + own_lambda_[i], std::span(being_eliminated_));
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      kept[k].W = being_eliminated_[k].W.template cast<float>();
+    }
   }
 }
 
@@ -282,7 +292,7 @@ double BaLandmarks<Kind>::Try(const std::vector<BaPose>& trial_poses,
     const auto& eliminated = eliminated_[i];
     trial_[i] = states_[i];
     if (eliminated.regular) {
-      const auto step = solver.LandmarkStep<Kind::kDof>(eliminated, Couplings(i));
+      const auto step = solver.LandmarkStep<Kind::kDof, float>(eliminated, Couplings(i));
       expected_ -=
           0.5 *
           eliminated.y.dot(eliminated.L.template triangularView<Eigen::Lower>().transpose() * step);

@@ -82,10 +82,10 @@ struct LandmarkEquations {
 };
 
 // Off-diagonal block w J_pose^T J_landmark between a landmark and one free pose.
-template <int kDof>
+template <int kDof, class Scalar = double>
 struct Coupling {
   int pose = 0;  // index among the free poses
-  Eigen::Matrix<double, 6, kDof> W = Eigen::Matrix<double, 6, kDof>::Zero();
+  Eigen::Matrix<Scalar, 6, kDof> W = Eigen::Matrix<Scalar, 6, kDof>::Zero();
 };
 
 // Targets to which an observation adds its part of the normal equations. `pose` and `W` are null
@@ -167,10 +167,12 @@ class SchurSolver {
   bool Solve(double lambda, const StopCheck& stop = {});
   Eigen::Ref<const Vector6d> step(int index) const { return step_.segment<6>(6 * index); }
 
-  // Returns the step of an eliminated landmark after Solve().
-  template <int kDof>
-  Eigen::Matrix<double, kDof, 1> LandmarkStep(const EliminatedLandmark<kDof>& landmark,
-                                              std::span<const Coupling<kDof>> couplings) const;
+  // Returns the step of an eliminated landmark after Solve(). The couplings may be kept in single
+  // precision: an error of 1e-7 of a step does not change where the iterations end.
+  template <int kDof, class Scalar>
+  Eigen::Matrix<double, kDof, 1> LandmarkStep(
+      const EliminatedLandmark<kDof>& landmark,
+      std::span<const Coupling<kDof, Scalar>> couplings) const;
 
  private:
   // Adds Z Z^T by 2x2 blocks, to the lower triangle only, since nothing else is read.
@@ -257,13 +259,15 @@ EliminatedLandmark<kDof> SchurSolver::Eliminate(const LandmarkEquations<kDof>& l
   return out;
 }
 
-template <int kDof>
+template <int kDof, class Scalar>
 Eigen::Matrix<double, kDof, 1> SchurSolver::LandmarkStep(
-    const EliminatedLandmark<kDof>& landmark, std::span<const Coupling<kDof>> couplings) const {
+    const EliminatedLandmark<kDof>& landmark,
+    std::span<const Coupling<kDof, Scalar>> couplings) const {
   Eigen::Matrix<double, kDof, 1> x = Eigen::Matrix<double, kDof, 1>::Zero();
   if (!landmark.regular) return x;
-  for (const Coupling<kDof>& coupling : couplings) {
-    x.noalias() += coupling.W.transpose() * step_.segment<6>(6 * coupling.pose);
+  for (const Coupling<kDof, Scalar>& coupling : couplings) {
+    x.noalias() +=
+        coupling.W.template cast<double>().transpose() * step_.segment<6>(6 * coupling.pose);
   }
   return landmark.Step(x);
 }

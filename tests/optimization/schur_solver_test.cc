@@ -134,7 +134,7 @@ TEST(SchurSolver, GivesTheStepOfTheWholeDampedSystem) {
     }
     for (int i = 0; i < kLandmarks; ++i) {
       const auto l = static_cast<std::size_t>(i);
-      const auto step = solver.LandmarkStep<kDof>(eliminated[l], s.couplings[l]);
+      const auto step = solver.LandmarkStep<kDof, double>(eliminated[l], s.couplings[l]);
       EXPECT_LT((step - expected.segment<kDof>(6 * kPoses + kDof * i)).norm(), 1e-9);
     }
   }
@@ -240,7 +240,7 @@ TEST(SchurSolver, ALandmarkWithoutInformationIsHeldStill) {
   const auto eliminated = solver.Eliminate<3>({}, 1e-3, couplings);
   EXPECT_FALSE(eliminated.regular);
   ASSERT_TRUE(solver.Solve(0));
-  EXPECT_EQ((solver.LandmarkStep<3>(eliminated, couplings)), Eigen::Vector3d::Zero());
+  EXPECT_EQ((solver.LandmarkStep<3, double>(eliminated, couplings)), Eigen::Vector3d::Zero());
   EXPECT_LT((solver.step(0) + Vector6d::Ones()).norm(), 1e-12);
 }
 

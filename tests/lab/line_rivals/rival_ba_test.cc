@@ -213,7 +213,7 @@ TEST(SolveRivalBa, EndPointsTakeMoreMemoryThanPluckerLines) {
       free_views.insert({o.line, o.pose});
     }
   }
-  constexpr std::size_t kMore = 6 * 2 * sizeof(double);
+  constexpr std::size_t kMore = 6 * 2 * sizeof(float);
   EXPECT_GE(SolveRivalBa(problem, {.rounds = 1}, kEnds).line_bytes,
             SolveLocalBa(problem, {.rounds = 1}).line_bytes + free_views.size() * kMore);
 }
