@@ -19,7 +19,8 @@ CommandSyntax MapInfoSyntax() {
   return {"map info",
           "Tells what is in a map file: version, camera, keyframes, points, lines, extent.",
           {"FILE"},
-          {{"--json", "FILE", "write the figures as JSON"}}};
+          {{"--json", "FILE", "write the figures as JSON"},
+           {"--memory", "", "also tell what the map takes in memory, by kind of data"}}};
 }
 
 }  // namespace
@@ -32,12 +33,13 @@ int MapInfoCommand(std::span<const std::string> arguments) {
   }
   const std::filesystem::path path = line.Positional(0);
   const auto json = line.Value("--json");
+  const bool memory = line.Has("--memory");
   if (json) CheckOutput("--json", *json, {&path, 1}, {"JSON of map info", "{\n  \"file\": "});
   const SavedAtlas saved = LoadAtlas(path);
   if (json) {
-    WriteFileAtomically(*json, MapInfoJson(line.Positional(0), saved));
+    WriteFileAtomically(*json, MapInfoJson(line.Positional(0), saved, memory));
   }
-  std::cout << MapInfoTable(line.Positional(0), saved);
+  std::cout << MapInfoTable(line.Positional(0), saved, memory);
   return 0;
 }
 

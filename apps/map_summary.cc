@@ -7,6 +7,7 @@
 #include "plumbline/map/reprojection.h"
 
 #include "apps/counted.h"
+#include "apps/map_memory.h"
 #include <algorithm>
 #include <system_error>
 #include <utility>
@@ -148,6 +149,29 @@ std::string MapRows(const RectifiedCamera& camera, const Map& map) {
   return text;
 }
 
+std::size_t KeyFramesOf(const Atlas& atlas) {
+  std::size_t count = 0;
+  for (const auto& [id, map] : atlas.maps()) count += map.keyframes().size();
+  return count;
+}
+
+std::string MemoryRows(const Atlas& atlas) {
+  constexpr double kBytesPerKilobyte = 1e3;
+  const auto keyframes = static_cast<double>(std::max<std::size_t>(KeyFramesOf(atlas), 1));
+  const auto row = [&](const std::string& kind, std::size_t bytes) {
+    const double kilobytes = static_cast<double>(bytes) / kBytesPerKilobyte;
+    return fmt::format(
+        "  {:<18} {:>10.0f} kB {:>8.1f} kB a keyframe\n", kind, kilobytes, kilobytes / keyframes);
+  };
+  std::string text = "memory\n";
+  std::size_t all = 0;
+  for (const MemoryOfKind& part : MemoryOf(atlas)) {
+    text += row(part.kind, part.bytes);
+    all += part.bytes;
+  }
+  return text + row("all", all);
+}
+
 std::string OtherMapRow(const Map& map) {
   return Row(fmt::format("map {}", map.id().value),
              fmt::format("{}, {}, {}",
@@ -193,7 +217,7 @@ MapSummary Summarize(const RectifiedCamera& camera, const Map& map) {
   return summary;
 }
 
-std::string MapInfoTable(const std::filesystem::path& path, const SavedAtlas& saved) {
+std::string MapInfoTable(const std::filesystem::path& path, const SavedAtlas& saved, bool memory) {
   constexpr double kBytesPerMegabyte = 1e6;
   const RectifiedCamera& c = saved.context.camera;
   std::string text = Row("file",
@@ -219,10 +243,10 @@ std::string MapInfoTable(const std::filesystem::path& path, const SavedAtlas& sa
   if (maps.size() > 1) numbers += ", of which the rest speaks";
   text += Row("maps", fmt::format("{} ({})", maps.size(), numbers)) + MapRows(c, *maps.front());
   for (std::size_t i = 1; i < maps.size(); ++i) text += OtherMapRow(*maps[i]);
-  return text;
+  return memory ? text + MemoryRows(saved.atlas) : text;
 }
 
-std::string MapInfoJson(const std::filesystem::path& path, const SavedAtlas& saved) {
+std::string MapInfoJson(const std::filesystem::path& path, const SavedAtlas& saved, bool memory) {
   const RectifiedCamera& c = saved.context.camera;
   const Eigen::Quaterniond& q = saved.context.rectified_from_left;
   Json json = {{"file", path.string()},
@@ -240,6 +264,9 @@ std::string MapInfoJson(const std::filesystem::path& path, const SavedAtlas& sav
                {"unit", c.baseline > 0 ? "m" : "of the map"},
                {"maps", Json::array()}};
   for (const Map* map : MapsOf(saved.atlas)) json["maps"].push_back(MapJson(c, *map));
+  if (memory) {
+    for (const MemoryOfKind& part : MemoryOf(saved.atlas)) json["memory"][part.kind] = part.bytes;
+  }
   // A path need not be UTF-8; invalid bytes become replacement characters.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

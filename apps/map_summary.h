@@ -27,8 +27,13 @@ struct MapSummary {
 MapSummary Summarize(const RectifiedCamera& camera, const Map& map);
 
 // The output of `plumbline map info`: as text, statistics of the active map and the number of
-// others; as JSON all maps, the active one first.
-std::string MapInfoTable(const std::filesystem::path& path, const SavedAtlas& saved);
-std::string MapInfoJson(const std::filesystem::path& path, const SavedAtlas& saved);
+// others; as JSON all maps, the active one first. With `memory` also what all maps take in memory,
+// by kind of data (MemoryOf).
+std::string MapInfoTable(const std::filesystem::path& path,
+                         const SavedAtlas& saved,
+                         bool memory = false);
+std::string MapInfoJson(const std::filesystem::path& path,
+                        const SavedAtlas& saved,
+                        bool memory = false);
 
 }  // namespace plumbline

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,6 +29,11 @@ class PointGrid {
   PointGrid WithPositions(const std::vector<Eigen::Vector2d>& positions) const;
 
   bool empty() const { return positions_.empty(); }
+  // Returns the memory in bytes beside the object itself.
+  std::size_t Bytes() const {
+    return positions_.capacity() * sizeof(Eigen::Vector2d) +
+           (cell_begin_.capacity() + items_.capacity()) * sizeof(int);
+  }
 
  private:
   int CellX(double x) const;

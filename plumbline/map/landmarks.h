@@ -42,6 +42,8 @@ class Observations {
   std::size_t size() const { return entries_.size(); }
   bool empty() const { return entries_.empty(); }
   const value_type& newest() const { return entries_.back(); }
+  // Returns the memory in bytes beside the object itself.
+  std::size_t Bytes() const { return entries_.capacity() * sizeof(value_type); }
 
   const_iterator find(KeyFrameId keyframe) const {
     const auto place = LowerBound(keyframe);

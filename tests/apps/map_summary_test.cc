@@ -8,6 +8,7 @@
 #include "tests/support/true_map.h"
 #include <algorithm>
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -109,6 +110,34 @@ TEST(MapInfo, CountsTheMaps) {
   EXPECT_EQ(maps[0]["id"], 0);
   EXPECT_EQ(maps[0]["keyframes"], 3);
   EXPECT_EQ(maps[1]["id"], 1);
+}
+
+TEST(MapInfo, TellsTheMemoryByKindWhereAsked) {
+  const ScratchFolder folder;
+  const auto file = folder.Write("m.plb", "x");
+  const Map map = MakeWorldMap(0).map;
+  const SavedAtlas saved = AtlasOf({map});
+  EXPECT_EQ(MapInfoTable(file, saved).find("memory"), std::string::npos);
+  EXPECT_FALSE(nlohmann::json::parse(MapInfoJson(file, saved)).contains("memory"));
+  const auto memory = nlohmann::json::parse(MapInfoJson(file, saved, true))["memory"];
+  std::size_t features = 0, observations = 0, all = 0;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    features += keyframe.frame.features().points.size();
+  }
+  for (const auto& [id, point] : map.points()) observations += point.observations.size();
+  for (const auto& part : memory) all += part.get<std::size_t>();
+  const std::size_t bytes = memory["point features"];
+  EXPECT_GE(bytes, features * sizeof(PointFeature));
+  EXPECT_LE(bytes, 2 * features * (sizeof(PointFeature) + sizeof(std::optional<Disparity>)));
+  EXPECT_EQ(memory["points"], map.points().size() * sizeof(MapPoint));
+  EXPECT_GE(memory["observations"].get<std::size_t>(),
+            observations * sizeof(Observations::value_type));
+  const std::string table = MapInfoTable(file, saved, true);
+  EXPECT_THAT(table, HasSubstr("  point features "));
+  EXPECT_THAT(table,
+              EndsWith(fmt::format("{:>10.0f} kB {:>8.1f} kB a keyframe\n",
+                                   static_cast<double>(all) / 1e3,
+                                   static_cast<double>(all) / 3e3)));
 }
 
 TEST(MapInfo, TellsTheLensThatWasLearned) {
