@@ -18,6 +18,24 @@ Eigen::Vector2d LensCorrection::ShiftAt(const Eigen::Vector2d& px) const {
   return border_px_ * d.squaredNorm() * d;
 }
 
+Segment2 LensCorrection::At(const Segment2& segment) const {
+  // Along a straight line the displacement across it is a polynomial of second degree. The least
+  // squares line through it meets it at these two places, of the half length from the middle.
+  static const double kMeets = std::sqrt(1.0 / 3);
+  const Eigen::Vector2d middle = segment.Midpoint();
+  const Eigen::Vector2d half = 0.5 * (segment.end - segment.start);
+  const Eigen::Vector2d normal = Eigen::Vector2d(-half.y(), half.x()).normalized();
+  const double before = normal.dot(ShiftAt(middle - kMeets * half));
+  const double after = normal.dot(ShiftAt(middle + kMeets * half));
+  const double mean = 0.5 * (before + after);
+  const double slope = 0.5 * (after - before) / kMeets;
+  const auto moved = [&](const Eigen::Vector2d& end, double across) {
+    const Eigen::Vector2d shift = ShiftAt(end);
+    return Eigen::Vector2d(end - shift + (normal.dot(shift) - across) * normal);
+  };
+  return {moved(segment.start, mean - slope), moved(segment.end, mean + slope)};
+}
+
 double LensCorrection::ScaleAt(const Eigen::Vector2d& px) const {
   const double part = border_px_ * inverse_unit_ * FromCentre(px).squaredNorm();
   // The first factor is the scale along the circle around the principal point, the second along the
@@ -110,6 +128,14 @@ void Correct(const StereoCorrection& before,
   }
 }
 
+Eigen::Vector4d EndsOf(const Segment2& segment) {
+  Eigen::Vector4d ends;
+  ends << segment.start, segment.end;
+  return ends;
+}
+
+Segment2 SegmentWith(const Eigen::Vector4d& ends) { return {ends.head<2>(), ends.tail<2>()}; }
+
 // Deviations shrink with the surroundings of their place.
 void Correct(const LensCorrection& before, const LensCorrection& correction, Features& features) {
   const auto measured_at = [&](const Eigen::Vector2d& px) {
@@ -125,10 +151,13 @@ void Correct(const LensCorrection& before, const LensCorrection& correction, Fea
     point.px = correction.At(measured);
   }
   for (LineFeature& line : features.lines) {
-    Segment2& segment = line.segment;
-    const Segment2 measured{measured_at(segment.start), measured_at(segment.end)};
-    rescale(measured.Midpoint(), line.sigma_px);
-    segment = {correction.At(measured.start), correction.At(measured.end)};
+    const Eigen::Vector4d measured =
+        Measured(EndsOf(line.segment), [&](const Eigen::Vector4d& ends) {
+          return Eigen::Vector4d(ends - EndsOf(before.At(SegmentWith(ends))));
+        });
+    const Segment2 segment = SegmentWith(measured);
+    rescale(segment.Midpoint(), line.sigma_px);
+    line.segment = correction.At(segment);
   }
 }
 

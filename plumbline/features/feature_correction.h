@@ -25,6 +25,11 @@ class LensCorrection {
   // Returns the displacement at a pixel: px is corrected to px - ShiftAt(px).
   Eigen::Vector2d ShiftAt(const Eigen::Vector2d& px) const;
   Eigen::Vector2d At(const Eigen::Vector2d& px) const { return px - ShiftAt(px); }
+  // Returns the segment that a line fit finds in the corrected image where it finds `segment` in
+  // the measured one. There a straight edge is a curve, and the ends of the line through it lie
+  // beside the curve. Each end moves along the line as its own pixel does, and across the line by
+  // the least squares line through the displacements along the segment.
+  Segment2 At(const Segment2& segment) const;
   // Returns the factor by which the correction shrinks the surroundings of a pixel, in the mean
   // over all directions.
   double ScaleAt(const Eigen::Vector2d& px) const;

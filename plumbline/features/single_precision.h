@@ -21,6 +21,13 @@ inline Eigen::Vector2d InSinglePrecision(const Eigen::Vector2d& value) {
   return {InSinglePrecision(value.x()), InSinglePrecision(value.y())};
 }
 
+inline Eigen::Vector4d InSinglePrecision(const Eigen::Vector4d& value) {
+  return {InSinglePrecision(value(0)),
+          InSinglePrecision(value(1)),
+          InSinglePrecision(value(2)),
+          InSinglePrecision(value(3))};
+}
+
 // Rounds all measurements of an image except the descriptors: positions, deviations, angles,
 // responses, disparities, right lines. The rounding steps are below 1e-4 px, far below the accuracy
 // of measurements, and map files store the numbers exactly in four bytes.

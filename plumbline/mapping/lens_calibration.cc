@@ -128,7 +128,7 @@ void Correct(const LensCorrection& correction, BaProblem& problem) {
     Segment2& segment = o.measurement.segment;
     const double scale = correction.ScaleAt(segment.Midpoint());
     o.measurement.covariance *= scale * scale;
-    segment = {correction.At(segment.start), correction.At(segment.end)};
+    segment = correction.At(segment);
   }
 }
 

@@ -167,6 +167,49 @@ MapCorrection AdjustPointsToLens(const Map& map,
   return correction;
 }
 
+// Learns the lens of a single camera, and adjusts poses and points to it. Returns an empty
+// correction if there is nothing to adjust them to, and nullopt when stopped.
+std::optional<MapCorrection> AdjustPointsToFinalLens(const Map& map,
+                                                     const MappingOptions& options,
+                                                     MapProblem whole,
+                                                     const StopCheck& stop) {
+  const double known_px = map.correction().lens.border_px();
+  const RadialCalibration learned = options.lens_calibration
+                                        ? CalibrateRadialDistortion(whole.problem, known_px, stop)
+                                        : RadialCalibration{};
+  // A map that has a lens correction may have taken in keyframes of a map that had another one.
+  if (learned.poses.empty() && known_px == 0) {
+    MapCorrection none;
+    none.lens_is_right = learned.is_right;
+    return none;
+  }
+  Correct(learned.correction, whole.problem);
+  std::optional<BaResult> moved = SolveForLens(learned, options, whole.problem, stop);
+  if (!moved) return std::nullopt;
+  FixScaleToOldestKeyFrame(whole.problem, *moved);
+  MapCorrection correction = CorrectionOf(map, whole, learned, *moved);
+  correction.outliers.clear();  // the adjustment with lines tells them
+  return correction;
+}
+
+// Returns the correction that does what `first` and then `second` do, where `second` was computed
+// on the map after `first`. All keyframes of one are in the other, and `second` leaves the lens.
+MapCorrection Joined(const MapCorrection& first, MapCorrection second) {
+  for (auto& [id, place] : second.keyframes) {
+    const auto before = first.keyframes.find(id);
+    if (before == first.keyframes.end()) continue;
+    place.before = before->second.before;
+    place.scale *= before->second.scale;
+  }
+  for (auto& [id, place] : second.points) {
+    const auto before = first.points.find(id);
+    if (before != first.points.end()) place.before = before->second.before;
+  }
+  second.lens = first.lens;
+  second.lens_is_right = first.lens_is_right;
+  return second;
+}
+
 }  // namespace
 
 MapCorrection AdjustWholeMap(const Map& map,
@@ -179,29 +222,29 @@ MapCorrection AdjustWholeMap(const Map& map,
   const std::size_t count = map.keyframes().size();
   if (count < kMinKeyFrames || limit == 0 || IsToStop(stop)) return {};
   const bool large = count > static_cast<std::size_t>(limit);
+  const auto without_lines = [&](const Map& of) {
+    return MakeWholeMap(of, imaging, lines.weights(), {}, stop);
+  };
   // The search for lines is skipped if the points alone show that the map takes too long.
-  const auto without_lines = [&] { return MakeWholeMap(map, imaging, lines.weights(), {}, stop); };
-  if (large && TakesTooLong(without_lines(), limit, stop)) return {};
-  const std::vector<WellSeenLine> well_seen = FindWellSeenLines(map, imaging, kAdjustedLines, stop);
+  if (large && TakesTooLong(without_lines(map), limit, stop)) return {};
+  MapCorrection to_lens;
+  std::optional<Map> moved;
+  if (imaging.camera.baseline == 0) {
+    auto adjusted = AdjustPointsToFinalLens(map, options, without_lines(map), stop);
+    if (!adjusted || IsToStop(stop)) return {};
+    to_lens = *std::move(adjusted);
+    if (!to_lens.empty()) moved.emplace(map).Apply(RebaseCorrection(to_lens, map));
+  }
+  const Map& at_lens = moved ? *moved : map;
+  const std::vector<WellSeenLine> well_seen =
+      FindWellSeenLines(at_lens, imaging, kAdjustedLines, stop);
   if (IsToStop(stop)) return {};
-  MapProblem whole = MakeWholeMap(map, imaging, lines.weights(), well_seen, stop);
+  MapProblem whole = MakeWholeMap(at_lens, imaging, lines.weights(), well_seen, stop);
   // Long lines that are seen from far away can tie many keyframes together, so that solving would
   // take too long.
-  if (large && TakesTooLong(whole, limit, stop)) whole = without_lines();
+  if (large && TakesTooLong(whole, limit, stop)) whole = without_lines(at_lens);
   if (IsToStop(stop)) return {};
-  const RadialCalibration learned =
-      options.lens_calibration
-          ? CalibrateRadialDistortion(whole.problem, map.correction().lens.border_px(), stop)
-          : RadialCalibration{};
-  Correct(learned.correction, whole.problem);
   PosesAndPoints start{whole.problem.poses, whole.problem.points};
-  // A map that has a lens correction may have taken in keyframes of a map that had another one.
-  if (!learned.poses.empty() || map.correction().lens.border_px() != 0) {
-    auto moved = SolveForLens(learned, options, whole.problem, stop);
-    if (!moved) return {};
-    FixScaleToOldestKeyFrame(whole.problem, *moved);
-    TakePosesAndPoints(*moved, whole.problem);
-  }
   const std::optional<BaResult> result = SolveAndFixScale(whole.problem,
                                                           start,
                                                           options.ba,
@@ -210,7 +253,7 @@ MapCorrection AdjustWholeMap(const Map& map,
                                                           stop);
   if (!result) return {};
   start.Exchange(whole.problem);
-  return CorrectionOf(map, whole, learned, *result);
+  return Joined(to_lens, CorrectionOf(at_lens, whole, {}, *result));
 }
 
 MapCorrection AdjustToLens(const Map& map,

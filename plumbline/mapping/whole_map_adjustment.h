@@ -27,7 +27,9 @@ namespace plumbline {
 // With a single camera, the remaining radial distortion of the lens is first estimated from the
 // points and removed from all measurements (CalibrateRadialDistortion, mapping.lens_calibration).
 // It becomes part of the correction, in addition to the correction of the map's features. If the
-// features are corrected for a lens, points are adjusted without lines first.
+// features are corrected for a lens, keyframes and points are adjusted to it without lines first,
+// and lines are searched among the keyframes at their new poses. Lines of the map before would hold
+// keyframes where a wrong lens had put them.
 //
 // Returns an empty correction for a map of less than three keyframes, and for one whose equations
 // take longer to solve than those of mapping.final_adjustment_keyframes keyframes that all share

@@ -3,6 +3,7 @@
 #include "plumbline/features/feature_correction.h"
 
 #include "plumbline/features/single_precision.h"
+#include "plumbline/geometry/segment.h"
 
 #include "tests/support/random_geometry.h"
 #include "tests/support/single_camera.h"
@@ -51,6 +52,46 @@ TEST(LensCorrection, IsPlausibleUpToThreePercentOfTheWidth) {
   EXPECT_TRUE(LensCorrection(OneCamera(), -17).IsPlausible());
   EXPECT_FALSE(LensCorrection(OneCamera(), 19).IsPlausible());
   EXPECT_FALSE(LensCorrection(OneCamera(), std::numeric_limits<double>::infinity()).IsPlausible());
+}
+
+// Returns the least squares line through the images of the points of a segment as a lens shows
+// them, between the images of its ends.
+Segment2 FittedThroughALens(const Segment2& straight, const LensCorrection& lens) {
+  constexpr int kSamples = 1001;
+  Eigen::MatrixX2d across(kSamples, 2);
+  Eigen::MatrixX2d shown(kSamples, 2);
+  for (int i = 0; i < kSamples; ++i) {
+    const double t = i / (kSamples - 1.0);
+    const Vector2d place = (1 - t) * straight.start + t * straight.end;
+    Vector2d px = place;
+    for (int round = 0; round < 50; ++round) px = place + lens.ShiftAt(px);
+    shown.row(i) = px;
+    across.row(i) << 1, t;
+  }
+  const Eigen::Matrix2d fit = across.colPivHouseholderQr().solve(shown);
+  return {fit.row(0), fit.row(0) + fit.row(1)};
+}
+
+TEST(LensCorrection, TakesALineThroughABentEdgeToTheStraightOne) {
+  const RectifiedCamera camera = OneCamera();
+  const LensCorrection lens(camera, 6);
+  const Segment2 along_the_border{{40, 10}, {560, 30}};
+  const Segment2 fitted = FittedThroughALens(along_the_border, lens);
+  const Segment2 corrected = lens.At(fitted);
+  const auto distance = [&](const Vector2d& px) {
+    return std::abs(LineDistance(LineThrough(along_the_border), px));
+  };
+  EXPECT_LT(distance(corrected.start), 0.05);
+  EXPECT_LT(distance(corrected.end), 0.05);
+  EXPECT_GT(distance(lens.At(fitted.start)), 0.5) << "where its ends alone would go";
+  EXPECT_GT(distance(lens.At(fitted.end)), 0.5);
+}
+
+TEST(LensCorrection, MovesASegmentWithoutLengthLikeItsPlace) {
+  const LensCorrection lens(OneCamera(), 2);
+  const Segment2 moved = lens.At(Segment2{{600, 90}, {600, 90}});
+  EXPECT_NEAR((moved.start - Vector2d(598, 90)).norm(), 0, 1e-12);
+  EXPECT_NEAR((moved.end - Vector2d(598, 90)).norm(), 0, 1e-12);
 }
 
 }  // namespace lens_correction_test

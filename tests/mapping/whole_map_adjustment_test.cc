@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/whole_map_adjustment.h"
 
+#include "plumbline/mapping/landmark_culling.h"
 #include "plumbline/mapping/line_map.h"
 
 #include "tests/mapping/vertical_lines.h"
@@ -80,6 +81,33 @@ TEST(AdjustWholeMap, LearnsWhatIsLeftOfTheLens) {
   EXPECT_EQ(scene.map.correction().lens, *learned.lens);
   EXPECT_FALSE(AdjustWholeMap(scene.map, world.Imaging(), {}, {}).lens);
   EXPECT_LT(WorstPose(scene.map, TruePoses()), 0.02);
+}
+
+// The map was adjusted with a wrong lens, so that its lines are bent as its keyframes are.
+TEST(AdjustWholeMap, StraightensAMapOfAWrongLens) {
+  const auto error = [](int lines) {
+    SyntheticWorld world = MakeSyntheticWorld(600, lines);
+    TrueMap scene = MapThroughALens(world, 12);
+    const auto adjust = [&](bool lens) {
+      MappingOptions options;
+      options.lens_calibration = lens;
+      const auto correction = AdjustWholeMap(scene.map, world.Imaging(), {}, options);
+      for (const auto& [id, place] : correction.keyframes) {
+        EXPECT_EQ(place.before.translation, scene.map.PoseOf(id).translation);
+      }
+      for (const auto& [id, place] : correction.points) {
+        EXPECT_EQ(place.before, scene.map.Find(id)->position);
+      }
+      scene.map.Apply(RebaseCorrection(correction, scene.map));
+    };
+    adjust(false);
+    scene.map.Apply(RemoveOutliers(scene.map, world.Imaging(), {}));
+    EXPECT_GT(WorstPose(scene.map, TruePoses()), 0.05) << lines;
+    adjust(true);
+    return WorstPose(scene.map, TruePoses());
+  };
+  EXPECT_LT(error(0), 0.005);
+  EXPECT_LT(error(100), 0.005);
 }
 
 TEST(AdjustToLens, LeavesTheNewestKeyFrameInItsPlace) {
