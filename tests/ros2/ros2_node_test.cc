@@ -281,6 +281,32 @@ TEST_F(Ros2NodeTest, LockstepGivesTheTrajectoryOfTheFolder) {
   EXPECT_EQ(node.Stop(), 0) << node.Said();
 }
 
+// In live mode, best effort, beside the publisher: with PLUMBLINE_LONG set, for it needs two cores.
+TEST_F(Ros2NodeTest, TakesEveryFrameAtTwentyHertz) {
+  if (!dataset_ || std::getenv("PLUMBLINE_LONG") == nullptr) GTEST_SKIP();
+  constexpr std::size_t kFrames = 100;
+  Ros2Node node(PairArguments({"-p", "options.slam.mode:=live", "-p", "reliability:=best_effort"}));
+  PairPublisher publisher(peer_, {});
+  const auto poses =
+      peer_.MakeReader("rt/plumbline/pose", geometry_msgs_msg_dds__PoseStamped__desc);
+  ASSERT_TRUE(WaitUntil([&] { return publisher.HasReaders() && DdsPeer::HasWriter(poses); }));
+  std::size_t count = 0;
+  const auto take = [&] {
+    while (DdsPeer::Take<PoseStamped>(poses, [&](const PoseStamped&) { ++count; })) {
+    }
+    return count == kFrames;
+  };
+  auto next = std::chrono::steady_clock::now();
+  for (std::size_t i = 0; i < kFrames; ++i) {
+    const auto frame = dataset_->Read(i);
+    ASSERT_TRUE(frame);
+    std::this_thread::sleep_until(next += std::chrono::milliseconds(50));
+    publisher.Publish(*frame);
+    take();
+  }
+  EXPECT_TRUE(WaitUntil(take, 2)) << count << " of " << kFrames << " frames\n" << node.Said();
+}
+
 TEST_F(Ros2NodeTest, GoesOnAfterBrokenMessages) {
   if (!dataset_) GTEST_SKIP() << "the sequence is not there";
   Ros2Node node(PairArguments());
