@@ -1,6 +1,6 @@
 # Debian packages by CPack: `cpack --config BUILD/CPackConfig.cmake -B DIR` makes one for each install
-# component: plumbline (program), libplumbline-dev (dev) and, where the package for Python is built,
-# python3-plumbline (python). tools/test_packages.sh installs and uses them in a bare system.
+# component: plumbline (program), libplumbline-dev (dev) and, where they are built, python3-plumbline (python)
+# and plumbline-ros2 (ros2). tools/test_packages.sh installs and uses them in a bare system.
 set(packaging_dir ${PROJECT_SOURCE_DIR}/cmake/packages)
 set(PLUMBLINE_PACKAGE_CONTACT "The Plumbline authors <plumbline@localhost>" CACHE STRING
     "Maintainer named in the Debian packages: name <address>")
@@ -49,7 +49,8 @@ file(TIMESTAMP ${PROJECT_SOURCE_DIR}/CHANGELOG.md changelog_date "%a, %d %b %Y %
 configure_file(${packaging_dir}/changelog.in packages/changelog @ONLY)
 configure_file(CHANGELOG.md packages/CHANGELOG.md COPYONLY)
 configure_file(${packaging_dir}/plumbline.1.in packages/plumbline.1 @ONLY)
-foreach(file changelog CHANGELOG.md plumbline.1)
+configure_file(${packaging_dir}/plumbline-ros2.1.in packages/plumbline-ros2.1 @ONLY)
+foreach(file changelog CHANGELOG.md plumbline.1 plumbline-ros2.1)
   execute_process(COMMAND gzip -9 --no-name --force --keep ${CMAKE_CURRENT_BINARY_DIR}/packages/${file}
                   COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
@@ -121,5 +122,21 @@ Plumbline computes where a camera went and what it saw, from the images of
 one camera, a stereo pair or a camera with depth (RGB-D).
 .
 This package has the module for Python 3.")
+endif()
+if(TARGET plumbline-ros2)
+  list(APPEND CPACK_COMPONENTS_ALL ros2)
+  plumbline_package_documents(ros2 plumbline-ros2)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/packages/plumbline-ros2.1.gz
+          DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ros2)
+  set(CPACK_DEBIAN_ROS2_PACKAGE_NAME plumbline-ros2)
+  set(CPACK_DEBIAN_ROS2_PACKAGE_SECTION science)
+  set(CPACK_DEBIAN_ROS2_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_ROS2_DESCRIPTION
+"visual SLAM with points and straight lines - node of ROS 2
+Plumbline computes where a camera went and what it saw, from the images of
+one camera, a stereo pair or a camera with depth (RGB-D).
+.
+This package has a program that takes the images from topics of ROS 2 and
+publishes poses and the map. It speaks DDS and needs no installed ROS.")
 endif()
 include(CPack)

@@ -5,6 +5,11 @@
 #include <fmt/format.h>
 
 namespace plumbline::ros_node {
+namespace {
+
+constexpr int kInertialQueue = 200;  // measurements: a fifth of a second and more
+
+}  // namespace
 
 FrameSubscriber::FrameSubscriber(Transport& transport,
                                  NodeLog& log,
@@ -17,6 +22,7 @@ FrameSubscriber::FrameSubscriber(Transport& transport,
     SubscribeInfo(stereo ? "left/camera_info" : "camera_info", left_camera_);
     if (stereo) SubscribeInfo("right/camera_info", right_camera_);
   }
+  SubscribeInertial();
   if (parameters.IsMono()) {
     SubscribeImages(left_, [this](const ImageMessage& image, const Bytes&) {
       take_({{left_.name, image}, std::nullopt});
@@ -77,6 +83,21 @@ void FrameSubscriber::SubscribeInfo(const std::string& name, std::optional<Topic
     const auto message = ParseRosCalibration(transport_.UsesCdr(), bytes);
     if (!message) return Refuse(settings.name, settings.type, bytes);
     camera = TopicCamera{settings.name, *message};
+  });
+}
+
+void FrameSubscriber::SubscribeInertial() {
+  TopicSettings settings;
+  settings.name = transport_.Resolve("imu");
+  settings.type = "sensor_msgs/Imu";
+  settings.queue_size = kInertialQueue;
+  settings.sensor_data = true;
+  transport_.Subscribe(settings, [this, settings](const Bytes& bytes) {
+    if (!ParseRosInertial(transport_.UsesCdr(), bytes)) {
+      return Refuse(settings.name, settings.type, bytes);
+    }
+    if (++inertial_count_ > 1) return;
+    log_.Say(Severity::kInfo, settings.name + ": measurements come, and are not used yet");
   });
 }
 

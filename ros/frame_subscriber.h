@@ -7,6 +7,7 @@
 #include "node_parameters.h"
 #include "sensor_messages.h"
 #include "transport.h"
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -26,6 +27,8 @@ struct FrameImages {
 //   stereo   left/image, left/camera_info, right/image, right/camera_info
 //   rgbd     image, camera_info, depth (registered to image)
 //
+// and, of all, imu, whose measurements are counted and not used yet.
+//
 // Two images belong together where their stamps are equal (exact), or nearest (approximate).
 // Messages that are none of their type are left out, with a line.
 class FrameSubscriber {
@@ -39,6 +42,7 @@ class FrameSubscriber {
   std::optional<Cameras> FindCameras() const;
   // The resolved name of the first image topic, without the name of a transport of images.
   const std::string& topic() const { return left_.name; }
+  std::int64_t inertial_count() const { return inertial_count_; }
 
  private:
   // A topic of images.
@@ -52,6 +56,7 @@ class FrameSubscriber {
   void SubscribeImages(const ImageTopic& topic,
                        std::function<void(const ImageMessage&, const Bytes&)> use);
   void SubscribeInfo(const std::string& name, std::optional<TopicCamera>& camera);
+  void SubscribeInertial();
   void Refuse(const std::string& topic, const std::string& type, const Bytes& bytes);
 
   Transport& transport_;
@@ -61,6 +66,7 @@ class FrameSubscriber {
   ImageTopic left_, second_;
   std::optional<TopicCamera> left_camera_, right_camera_;
   std::optional<FramePairs> pairs_;
+  std::int64_t inertial_count_ = 0;
 };
 
 }  // namespace plumbline::ros_node

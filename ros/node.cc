@@ -25,6 +25,20 @@ Node::Node(Transport& transport, const NodeParameters& parameters)
   transport.Repeat(parameters_.map_period, [this] { PublishMap(); });
 }
 
+Node::~Node() {
+  slam_.Reset();  // its threads count
+  if (frames_.inertial_count() > 0) {
+    log_.Say(Severity::kInfo,
+             fmt::format("{} inertial measurements came", frames_.inertial_count()));
+  }
+  if (frames_fed_ == 0) return;
+  log_.Say(Severity::kInfo,
+           fmt::format("{} frames came, {} have a pose, {} were left out for want of time",
+                       frames_fed_,
+                       poses_.published(),
+                       poses_.skipped()));
+}
+
 void Node::OfferServices(Transport& transport) {
   transport.OfferTrigger("~/save_map", [this] { return slam_.Save(MapFile()); });
   transport.OfferTrigger("~/load_map", [this] { return LoadMaps(false); });
@@ -46,6 +60,7 @@ void Node::Take(const FrameImages& images) {
     newest_stamp_ns_ = images.left.message.stamp_ns;
     const auto jumped = slam_.Feed(images.left, images.second ? &*images.second : nullptr);
     map_is_new_ = true;
+    ++frames_fed_;
     if (!jumped) return;
     log_.Say(Severity::kWarning,
              fmt::format("stamps jump back by {:.3f} s; the camera is looked for in the map, or "

@@ -24,6 +24,10 @@ class Node {
  public:
   // Throws InputError for a map that cannot be loaded.
   Node(Transport& transport, const NodeParameters& parameters);
+  // Says how many frames came, and what came of them.
+  ~Node();
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
 
  private:
   void Take(const FrameImages& images);
@@ -41,6 +45,7 @@ class Node {
   MapPublisher maps_;
   std::optional<Rigid3> base_from_camera_;
   std::int64_t newest_stamp_ns_ = 0;
+  std::int64_t frames_fed_ = 0;
   bool map_is_new_ = false;  // there were frames since the map was published
   LiveSlam slam_;            // its threads use what is above
   FrameSubscriber frames_;

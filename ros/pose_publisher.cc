@@ -27,8 +27,11 @@ PosePublisher::PosePublisher(Transport& transport, NodeLog& log, const NodeParam
   odometry_publication_ =
       transport.Advertise({transport.Resolve("~/odometry"), "nav_msgs/Odometry", 10});
   state_ = transport.Advertise({transport.Resolve("~/state"), "std_msgs/String", 1, true});
-  if (parameters.publish_tf)
-    tf_ = transport.Advertise({transport.Resolve("/tf"), "tf2_msgs/TFMessage", 100});
+  if (parameters.publish_tf) {
+    const std::string type = "tf2_msgs/TFMessage";
+    tf_ = transport.Advertise({transport.Resolve("/tf"), type, 100});
+    tf_static_ = transport.Advertise({transport.Resolve("/tf_static"), type, 1, true});
+  }
   ListenTo("/tf", false);
   ListenTo("/tf_static", true);
 }
@@ -56,12 +59,21 @@ std::optional<Rigid3> PosePublisher::FindMounting(const std::string& camera_fram
                        parameters_.base_frame,
                        camera_frame,
                        found.error()));
+  if (tf_static_) {
+    const TransformMessage mounting{0, parameters_.base_frame, camera_frame, ForwardLooking()};
+    tf_static_->Publish(TransformsMessage(transport_.UsesCdr(), {mounting}));
+  }
   return ForwardLooking();
 }
 
 void PosePublisher::Publish(const FrameOutcome& frame, const Rigid3& base_from_camera) {
   PublishState(frame);
+  if (frame.skipped) {
+    log_.Throttled(Severity::kWarning,
+                   fmt::format("frames are left out for want of time: {} so far", ++skipped_));
+  }
   if (!frame.world_from_camera) return;
+  ++published_;
   const Rigid3 map_from_base =
       base_from_camera * *frame.world_from_camera * Inverse(base_from_camera);
   if (!odometry_) odometry_.emplace();

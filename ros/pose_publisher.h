@@ -25,14 +25,17 @@ class PosePublisher {
   PosePublisher(Transport& transport, NodeLog& log, const NodeParameters& parameters);
 
   // Where the camera is mounted: looked up in tf by the frame of its images, waited for up to two
-  // seconds. nullopt: wait on. Without a transform the base looks where the camera looks, and a
-  // warning says so.
+  // seconds. nullopt: wait on. Without a transform the base looks where the camera looks; a warning
+  // says so, and /tf_static gets this transform.
   std::optional<Rigid3> FindMounting(const std::string& camera_frame);
 
   // From the thread that tracks.
   void Publish(const FrameOutcome& frame, const Rigid3& base_from_camera);
   // The next poses have nothing to do with those before: the maps are others.
   void StartAnew() { odometry_.reset(); }
+  // Frames so far; not while frames are tracked.
+  std::int64_t published() const { return published_; }
+  std::int64_t skipped() const { return skipped_; }
 
  private:
   void ListenTo(const std::string& topic, bool is_static);
@@ -42,8 +45,9 @@ class PosePublisher {
   Transport& transport_;
   NodeLog& log_;
   const NodeParameters& parameters_;
-  std::unique_ptr<Publication> pose_, odometry_publication_, state_, tf_;
+  std::unique_ptr<Publication> pose_, odometry_publication_, state_, tf_, tf_static_;
   std::string state_now_;
+  std::int64_t published_ = 0, skipped_ = 0;
   TransformTree transforms_;
   std::optional<std::chrono::steady_clock::time_point> waiting_since_;
   std::optional<OdometryFrame> odometry_;

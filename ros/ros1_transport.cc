@@ -14,6 +14,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/String.h>
 #include <std_srvs/Trigger.h>
@@ -102,6 +103,7 @@ TypeDescription DescriptionOf(const std::string& type) {
               sensor_msgs::CameraInfo,
               sensor_msgs::CompressedImage,
               sensor_msgs::Image,
+              sensor_msgs::Imu,
               sensor_msgs::PointCloud2,
               std_msgs::String,
               tf2_msgs::TFMessage,

@@ -131,12 +131,12 @@ void ReadNames(const Arguments& arguments, Ros2Settings& settings) {
 
 // Parameters that any node of ROS 2 has, and those of the transport; the others stay.
 void TakeOwnParameters(Ros2Settings& settings) {
-  // The node knows no clock but the stamps of the images.
   if (const auto found = settings.parameters.find("use_sim_time");
       found != settings.parameters.end()) {
     if (!std::holds_alternative<bool>(found->second)) {
       throw InputError("use_sim_time: expected a truth value, found another one");
     }
+    settings.use_sim_time = std::get<bool>(found->second);
     settings.parameters.erase(found);
   }
   const auto found = settings.parameters.find("reliability");

@@ -17,6 +17,7 @@ struct Ros2Settings {
   std::map<std::string, std::string> remappings;  // from a name to a name, both expanded
   Parameters parameters;                          // of the node, without those below
   bool reliable = false;        // reliability: images reliable in place of best effort
+  bool use_sim_time = false;    // timers run by /clock
   std::uint32_t domain = 0;     // ROS_DOMAIN_ID
   bool localhost_only = false;  // ROS_LOCALHOST_ONLY
   std::size_t gid_size = 16;  // bytes of a Gid in ros_discovery_info: 24 up to Humble (ROS_DISTRO)

@@ -25,6 +25,7 @@
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
+#include <fmt/format.h>
 
 namespace plumbline::ros_node {
 namespace {
@@ -40,6 +41,7 @@ constexpr std::uint32_t kSocketBuffer = 8U
                                         << 20U;  // bytes; a few images, as far as the system has it
 
 constexpr std::uint32_t kMostLocalPeers = 10;
+constexpr double kSecondsBetweenWarnings = 5;
 
 // Messages of any type, as their bytes.
 class RawType : public dds::TopicDataType {
@@ -141,6 +143,7 @@ class Ros2Transport::Implementation {
     publisher_ = OrFail(participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT), "a publisher");
     subscriber_ =
         OrFail(participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT), "a subscriber");
+    if (settings.use_sim_time) ListenToClock();
   }
   ~Implementation() {
     participant_->delete_contained_entities();
@@ -160,6 +163,7 @@ class Ros2Transport::Implementation {
     dds::StatusCondition& status = reader->get_statuscondition();
     dds::StatusMask awaited = dds::StatusMask::data_available();
     awaited << dds::StatusMask::requested_incompatible_qos();
+    awaited << dds::StatusMask::sample_lost();
     status.set_enabled_statuses(awaited);
     waits_.attach_condition(status);
     subscriptions_.push_back({topic.name, reader, std::move(receive)});
@@ -183,24 +187,31 @@ class Ros2Transport::Implementation {
   void Repeat(double seconds, std::function<void()> work) {
     const auto period = std::chrono::duration_cast<Clock::duration>(
         std::chrono::duration<double>(std::min(seconds, 1e6)));
-    timers_.push_back({Clock::now() + period, period, std::move(work)});
+    timers_.push_back({Now() + period, period, std::move(work)});
   }
 
   void Run(const std::function<bool()>& stop, const std::function<void(const std::string&)>& warn) {
     Introduce();
+    Repeat(kSecondsBetweenWarnings, [&] {
+      for (Subscription& subscription : subscriptions_) WarnOfLosses(subscription, warn);
+    });
     while (!stop()) {
       dds::ConditionSeq active;
       waits_.wait(active, eprosima::fastrtps::Duration_t(0, 100'000'000));
       for (Subscription& subscription : subscriptions_) {
         Receive(subscription);
         CheckQos(subscription, warn);
+        CountLosses(subscription);
       }
       for (Timer& timer : timers_) {
-        if (Clock::now() < timer.next) continue;
-        timer.next = Clock::now() + timer.period;
+        const Clock::time_point now = Now();
+        timer.next = std::min(timer.next, now + timer.period);  // /clock may jump back
+        if (now < timer.next) continue;
+        timer.next = now + timer.period;
         timer.work();
       }
     }
+    for (Subscription& subscription : subscriptions_) WarnOfLosses(subscription, warn);
   }
 
  private:
@@ -209,6 +220,7 @@ class Ros2Transport::Implementation {
     dds::DataReader* reader = nullptr;
     Transport::Receive receive;
     Bytes bytes = {};
+    std::int64_t lost = 0;  // not yet told
   };
   struct Timer {
     Clock::time_point next;
@@ -239,6 +251,37 @@ class Ros2Transport::Implementation {
     warn(subscription.topic +
          ": a publisher has another QoS, and nothing of it comes (parameter reliability: "
          "best_effort takes both kinds)");
+  }
+
+  Clock::time_point Now() const { return settings_.use_sim_time ? sim_time_ : Clock::now(); }
+
+  void ListenToClock() {
+    TopicSettings topic{settings_.Resolve("/clock"), "rosgraph_msgs/Clock"};
+    topic.sensor_data = true;
+    Subscribe(topic, [this](const Bytes& message) {
+      std::uint32_t fields[3];  // the encoding, seconds, nanoseconds
+      if (message.size() < sizeof(fields)) return;
+      std::memcpy(fields, message.data(), sizeof(fields));
+      sim_time_ = Clock::time_point(std::chrono::seconds(static_cast<std::int32_t>(fields[1])) +
+                                    std::chrono::nanoseconds(fields[2]));
+    });
+  }
+
+  static void CountLosses(Subscription& subscription) {
+    dds::SampleLostStatus status;
+    subscription.reader->get_sample_lost_status(status);
+    subscription.lost += status.total_count_change;
+  }
+
+  static void WarnOfLosses(Subscription& subscription,
+                           const std::function<void(const std::string&)>& warn) {
+    const std::int64_t lost = std::exchange(subscription.lost, 0);
+    if (lost == 0) return;
+    warn(
+        fmt::format("{}: {} messages were lost on the way (net.core.rmem_max, or the parameter "
+                    "reliability)",
+                    subscription.topic,
+                    lost));
   }
 
   // Tells which node the endpoints belong to.
@@ -272,6 +315,7 @@ class Ros2Transport::Implementation {
   std::list<Subscription> subscriptions_;
   std::vector<dds::DataWriter*> writers_;
   std::vector<Timer> timers_;
+  Clock::time_point sim_time_;  // of /clock; the beginning of time before it came
 };
 
 Ros2Transport::Ros2Transport(const Ros2Settings& settings)

@@ -75,6 +75,17 @@ UsePython() {
   InRoot "$1" python3 -c 'import plumbline; print("import plumbline", plumbline.__version__)'
 }
 
+# UseRos2Node ROOT
+UseRos2Node() {
+  [[ -e $1/packages/plumbline-ros2.deb ]] || { Skip "plumbline-ros2 is not built"; return; }
+  Step "plumbline-ros2"
+  InstallInRoot "$1" /packages/plumbline-ros2.deb
+  InRoot "$1" timeout --signal INT 3 plumbline-ros2 -p camera:=euroc || [[ $? -eq 124 ]] ||
+    Fail "plumbline-ros2 does not run"
+  InRoot "$1" plumbline-ros2 -p sensor:=radar 2> /dev/null && Fail "a wrong parameter was taken"
+  return 0
+}
+
 # PurgeAll ROOT: no file of the packages may stay.
 PurgeAll() {
   Step "purge"
@@ -99,6 +110,7 @@ UseInBareSystem() {
   UseProgram "$root"
   UseLibrary "$root"
   UsePython "$root"
+  UseRos2Node "$root"
   PurgeAll "$root"
 }
 
