@@ -33,8 +33,7 @@ class DdsPeer {
  public:
   explicit DdsPeer(unsigned domain) {
     ::setenv("CYCLONEDDS_URI",  // NOLINT(concurrency-mt-unsafe)
-             "<CycloneDDS><Domain><Tracing><Verbosity>none</Verbosity></"
-             "Tracing><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
+             "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
              "</General><Discovery><ParticipantIndex>auto</ParticipantIndex><Peers>"
              "<Peer Address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>",
              1);

@@ -227,33 +227,28 @@ double MedianTotal(const std::filesystem::path& timing) {
   return Median(totals);
 }
 
-// In live mode, best effort, beside the publisher: with PLUMBLINE_LONG set, for it needs two cores.
-TEST_F(Ros2NodeTest, TakesEveryFrameAtTwentyHertz) {
-  if (!dataset_ || std::getenv("PLUMBLINE_LONG") == nullptr) GTEST_SKIP();
-  using Clock = std::chrono::steady_clock;
-  constexpr std::size_t kFrames = 100;
-  const ScratchFolder folder;
-  const Outcome run =
-      RunProgram(folder,
-                 "run " + Quoted(*sequence_) + " --camera euroc --to " + std::to_string(kFrames) +
-                     " --mode live --quiet --out " + Quoted(folder / "run"));
-  ASSERT_EQ(run.code, 0) << run.err;
-  std::vector<SensorFrame> frames;
-  for (std::size_t i = 0; i < kFrames; ++i) frames.push_back(*dataset_->Read(i));
+// Milliseconds from before the images of a pair are handed to DDS: to its pose, and until DDS has
+// them.
+struct Delays {
+  std::vector<double> to_pose, to_publish;
+};
 
+// Plays the frames at 20 Hz to a node in live mode, best effort: all come, and none is lost.
+void PlayAtTwentyHertz(const std::vector<SensorFrame>& frames, Delays& delays) {
+  using Clock = std::chrono::steady_clock;
+  DdsPeer peer(Domain());
   Ros2Node node(PairArguments({"-p", "options.slam.mode:=live", "-p", "reliability:=best_effort"}));
-  PairPublisher publisher(peer_, {});
-  const auto poses =
-      peer_.MakeReader("rt/plumbline/pose", geometry_msgs_msg_dds__PoseStamped__desc);
+  PairPublisher publisher(peer, {});
+  const auto poses = peer.MakeReader("rt/plumbline/pose", geometry_msgs_msg_dds__PoseStamped__desc);
   ASSERT_TRUE(WaitUntil([&] { return publisher.HasReaders() && DdsPeer::HasWriter(poses); }));
   std::map<std::int64_t, Clock::time_point> sent;
-  // ms from before the images are handed to DDS: to the pose, and until DDS has them.
-  std::vector<double> delays, publishing;
+  const auto since = [&](std::int64_t stamp_ns) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - sent.at(stamp_ns)).count();
+  };
   const auto take_until = [&](Clock::time_point end) {
-    while (delays.size() < kFrames && Clock::now() < end) {
+    while (delays.to_pose.size() < frames.size() && Clock::now() < end) {
       const bool came = DdsPeer::Take<PoseStamped>(poses, [&](const PoseStamped& message) {
-        const auto since = Clock::now() - sent.at(StampOf(message.header));
-        delays.push_back(std::chrono::duration<double, std::milli>(since).count());
+        delays.to_pose.push_back(since(StampOf(message.header)));
       });
       if (!came) std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
@@ -266,22 +261,70 @@ TEST_F(Ros2NodeTest, TakesEveryFrameAtTwentyHertz) {
     std::this_thread::sleep_until(next);
     sent[frame.stamp_ns] = Clock::now();
     publisher.Publish(frame);
-    const std::chrono::duration<double, std::milli> took = Clock::now() - sent[frame.stamp_ns];
-    publishing.push_back(took.count());
+    delays.to_publish.push_back(since(frame.stamp_ns));
   }
   take_until(Clock::now() + std::chrono::seconds(2));
   EXPECT_EQ(node.Stop(), 0);
   // None is lost on the way, however busy the machine is; with two cores none for want of time.
   EXPECT_THAT(node.Said(), HasSubstr("100 frames came, 100 have a pose, 0 were left out"));
   EXPECT_THAT(node.Said(), Not(HasSubstr("lost on the way")));
-  EXPECT_EQ(delays.size(), kFrames);
-  const double from_file = MedianTotal(folder / "run/timing.csv"), over_dds = Median(delays);
-  std::printf("median ms to the pose: %.2f over DDS, of these %.2f to publish; %.2f from a file\n",
-              over_dds,
-              Median(publishing),
-              from_file);
-  // On two idle cores the aim is 2 ms; this is half of the time between two frames.
-  EXPECT_LE(over_dds, from_file + 25);
+  EXPECT_EQ(delays.to_pose.size(), frames.size());
+}
+
+// With PLUMBLINE_LONG set, for it needs two cores beside the publisher. PLUMBLINE_LATENCY=N prints
+// the time to the pose of N more runs, each beside one of the same frames from files.
+TEST_F(Ros2NodeTest, TakesEveryFrameAtTwentyHertz) {
+  if (!dataset_ || std::getenv("PLUMBLINE_LONG") == nullptr) GTEST_SKIP();
+  constexpr std::size_t kFrames = 100;
+  std::vector<SensorFrame> frames;
+  for (std::size_t i = 0; i < kFrames; ++i) frames.push_back(*dataset_->Read(i));
+  Delays unused;
+  PlayAtTwentyHertz(frames, unused);
+  const char* rounds = std::getenv("PLUMBLINE_LATENCY");
+  for (int i = 0; rounds != nullptr && i < std::atoi(rounds); ++i) {
+    const ScratchFolder folder;
+    const Outcome run =
+        RunProgram(folder,
+                   "run " + Quoted(*sequence_) + " --camera euroc --to " + std::to_string(kFrames) +
+                       " --mode live --quiet --out " + Quoted(folder / "run"));
+    ASSERT_EQ(run.code, 0) << run.err;
+    Delays delays;
+    PlayAtTwentyHertz(frames, delays);
+    ASSERT_FALSE(delays.to_pose.empty());
+    std::printf("median ms to the pose: %.2f over DDS, of these %.2f to publish; %.2f from files\n",
+                Median(delays.to_pose),
+                Median(delays.to_publish),
+                MedianTotal(folder / "run/timing.csv"));
+  }
+}
+
+// Timers run by /clock, whatever the time is.
+TEST_F(Ros2NodeTest, PublishesTheMapByTheClockOfTheSimulation) {
+  if (!dataset_) GTEST_SKIP() << "the sequence is not there";
+  Ros2Node node(PairArguments({"-p", "use_sim_time:=true", "-p", "map_period:=0.1"}));
+  PairPublisher publisher(peer_, {});
+  const auto clock = peer_.MakeWriter("rt/clock", rosgraph_msgs_msg_dds__Clock__desc);
+  const auto poses =
+      peer_.MakeReader("rt/plumbline/pose", geometry_msgs_msg_dds__PoseStamped__desc);
+  const auto path = peer_.MakeReader("rt/plumbline/path", nav_msgs_msg_dds__Path__desc);
+  ASSERT_TRUE(WaitUntil([&] {
+    return publisher.HasReaders() && DdsPeer::HasReader(clock) && DdsPeer::HasWriter(poses) &&
+           DdsPeer::HasWriter(path);
+  })) << node.Said();
+  const auto take_path = [&] {
+    return DdsPeer::Take<nav_msgs_msg_dds__Path_>(path, [](const auto&) {});
+  };
+  publisher.Publish(*dataset_->Read(0));
+  ASSERT_TRUE(WaitUntil([&] {
+    return DdsPeer::Take<PoseStamped>(poses, [](const PoseStamped&) {});
+  })) << node.Said();
+  // Ten periods of the wall clock, in which the clock of the simulation stands still.
+  EXPECT_FALSE(WaitUntil(take_path, 1));
+  rosgraph_msgs_msg_dds__Clock_ now{};
+  now.clock.sec = 100;
+  dds_write(clock, &now);
+  EXPECT_TRUE(WaitUntil(take_path)) << node.Said();
+  EXPECT_EQ(node.Stop(), 0);
 }
 
 TEST_F(Ros2NodeTest, GoesOnAfterBrokenMessages) {
