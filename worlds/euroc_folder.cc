@@ -164,13 +164,13 @@ void WriteEurocFolder(const SyntheticSequence& sequence,
   if (sequence.options().text) {
     WriteGrayPng(folder / "mask_text.png", TextMask(left.width(), left.height()));
   }
-  if (sequence.options().lens != SynthLens::kEuroc) {
+  if (HasOtherLens(sequence.options())) {
     WriteFileAtomically(
         folder / "camera.yaml",
         FormatCamera(sequence.calibration()) + FormatInertialCalibration(InertialOf(sequence)));
   }
   for (int camera = 0; camera < 2; ++camera) {
-    if (sequence.options().lens == SynthLens::kEuroc) {
+    if (!HasOtherLens(sequence.options())) {
       WriteFileAtomically(cameras[camera] / "sensor.yaml", SensorYaml(sequence, camera));
     }
     WriteFileAtomically(cameras[camera] / "data.csv", ImageList(sequence));

@@ -16,9 +16,10 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kNear = 0.02;          // metres before the camera
-constexpr double kPull = 0.001;         // metres before the line
-constexpr double kEndAccuracy = 0.005;  // metres
+constexpr double kNear = 0.02;           // metres before the camera
+constexpr double kPull = 0.001;          // metres before the line
+constexpr double kEndAccuracy = 0.005;   // metres
+constexpr double kWidestTangent = 5.67;  // of 80 degrees
 
 }  // namespace
 
@@ -163,10 +164,14 @@ LineVisibility::LineVisibility(const Camera& camera,
   low_ = Vector2d::Constant(std::numeric_limits<double>::infinity());
   high_ = -low_;
   const auto add = [this](double x, double y) {
-    const auto ray = camera_.Unproject({x, y});
-    if (!ray) return;
-    low_ = low_.cwiseMin(ray->head<2>());
-    high_ = high_.cwiseMax(ray->head<2>());
+    const Vector2d border(x, y);
+    const auto ray = camera_.Unproject(border);
+    // Beyond the end of the lens, or beside the camera: as far as lines count there.
+    const Vector2d middle(0.5 * (camera_.width() - 1), 0.5 * (camera_.height() - 1));
+    const Vector2d end =
+        ray ? Vector2d(ray->head<2>()) : kWidestTangent * (border - middle).normalized();
+    low_ = low_.cwiseMin(end).cwiseMax(-kWidestTangent);
+    high_ = high_.cwiseMax(end).cwiseMin(kWidestTangent);
   };
   for (int x = 0; x < camera.width(); ++x) {
     for (const int y : {0, camera.height() - 1}) add(x, y);

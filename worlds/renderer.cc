@@ -35,7 +35,7 @@ struct CameraPose {
   explicit CameraPose(const Rigid3& world_from_camera)
       : rotation(world_from_camera.rotation.toRotationMatrix().cast<float>()),
         origin(world_from_camera.translation.cast<float>()) {}
-  Vector3f Direction(const Vector2f& ray) const { return rotation * Vector3f(ray.x(), ray.y(), 1); }
+  Vector3f Direction(const Vector3f& ray) const { return rotation * ray; }
 };
 
 // Sample positions within a pixel, with their mean exactly at its centre: a grid for square
@@ -210,12 +210,10 @@ int Renderer::Implementation::LevelAt(const RowView& view,
                                       unsigned surface,
                                       float spacing) const {
   const RayTable::Entry& entry = view.rays.at(x, view.y);
-  const Eigen::Matrix2f step = spacing * entry.slope;
+  const Eigen::Matrix<float, 3, 2> step = spacing * entry.slope;
   const SurfaceHit hit{surface, view.pose.origin, view.pose.Direction(entry.ray), 0};
-  return shading_.LevelOf(hit,
-                          view.pose.rotation * Vector3f(step(0, 0), step(1, 0), 0),
-                          view.pose.rotation * Vector3f(step(0, 1), step(1, 1), 0),
-                          view.instant);
+  return shading_.LevelOf(
+      hit, view.pose.rotation * step.col(0), view.pose.rotation * step.col(1), view.instant);
 }
 
 float Renderer::Implementation::ShadeAt(const RowView& view,
@@ -224,7 +222,7 @@ float Renderer::Implementation::ShadeAt(const RowView& view,
                                         unsigned surface,
                                         int level,
                                         int sample) const {
-  const Vector2f ray = view.rays.at(x, view.y).At(place.x(), place.y());
+  const Vector3f ray = view.rays.at(x, view.y).At(place.x(), place.y());
   return shading_.Shade(
       {surface, view.pose.origin, view.pose.Direction(ray), sample}, level, view.instant);
 }
@@ -311,12 +309,13 @@ int Renderer::Implementation::TimeSamples(const RayTable& rays,
     for (int x = step_x / 2; x < rays.width(); x += step_x) {
       const RayTable::Entry& entry = rays.at(x, y);
       if (depth.at(x, y) <= 0) continue;
-      const Vector2f& ray = entry.ray;
-      const Vector3d point = depth.at(x, y) * Vector3f(ray.x(), ray.y(), 1).cast<double>();
-      const Vector3d moved = last_from_first * point;
-      if (moved.z() <= 0) continue;
-      const Eigen::Vector2d shift = moved.hnormalized() - ray.cast<double>();
-      farthest = std::max(farthest, (entry.slope.cast<double>().inverse() * shift).norm());
+      const Vector3d ray = entry.ray.cast<double>();
+      const auto moved = rays.Scaled(last_from_first * (depth.at(x, y) / ray.z() * ray));
+      if (!moved) continue;
+      const Eigen::Matrix<double, 3, 2> slope = entry.slope.cast<double>();
+      const Eigen::Matrix2d squared = slope.transpose() * slope;
+      farthest =
+          std::max(farthest, (squared.inverse() * (slope.transpose() * (*moved - ray))).norm());
     }
   }
   const int least = std::max(time_samples_, samples_);
@@ -374,16 +373,22 @@ Rendering Renderer::Implementation::Render(const RayTable& rays,
     TraceRow(view, Vector2f::Zero(), centres.row(y));
     for (int x = 0; x < width; ++x) {
       const unsigned surface = centres.at(x, y);
-      if (surface == kNothing) continue;
-      // The direction has length 1 along z, so that the distance in its units is the depth.
-      const SurfaceHit hit{surface, view.pose.origin, view.pose.Direction(rays.at(x, y).ray), 0};
-      result.depth.at(x, y) = shading_.Distance(hit, view.instant);
+      const RayTable::Entry& entry = rays.at(x, y);
+      // What is beside the camera or behind it has no depth.
+      if (surface == kNothing || !entry.seen || !(entry.ray.z() > 0)) continue;
+      const SurfaceHit hit{surface, view.pose.origin, view.pose.Direction(entry.ray), 0};
+      result.depth.at(x, y) = entry.ray.z() * shading_.Distance(hit, view.instant);
     }
   }
   if (shutter.exposure > 0) {
     RenderOpen(rays, take, result.depth, result.light);
   } else {
     RenderInstant(rays, take, centres, result.light);
+  }
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (!rays.at(x, y).seen) result.light.at(x, y) = 0;
+    }
   }
   return result;
 }

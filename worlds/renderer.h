@@ -17,8 +17,10 @@ namespace plumbline {
 
 // Image of an ideal sensor.
 struct Rendering {
-  Image<float> light;  // 255 is white at exposure 1; before response, noise and rounding
-  DepthImage depth;    // metres along z at the pixel centres; 0 without a hit
+  // 255 is white at exposure 1; before response, noise and rounding. Black where the lens has no
+  // ray
+  Image<float> light;
+  DepthImage depth;  // metres along z at the pixel centres; 0 without a hit, and beside the camera
 };
 
 // Exposure times of the rows of an image. Row y is open for `exposure` seconds around

@@ -35,8 +35,8 @@ const SynthOptions& Checked(const SynthOptions& options) {
   if (options.camera == SynthCamera::kKitti && options.distortion) {
     throw InputError("distortion: expected false with camera: kitti, found true");
   }
-  if (options.camera == SynthCamera::kKitti && options.lens != SynthLens::kEuroc) {
-    throw InputError("lens: expected euroc with camera: kitti, found another one");
+  if (options.camera != SynthCamera::kEuroc && options.lens != SynthLens::kEuroc) {
+    throw InputError("lens: expected euroc with another camera, found another one");
   }
   return options;
 }
@@ -129,10 +129,25 @@ CameraIntrinsics KittiIntrinsics() {
   return intrinsics;
 }
 
+// Intrinsics of the TUM VI data set at 512 x 512: the published calibration.
+CameraIntrinsics TumViIntrinsics(bool right) {
+  CameraIntrinsics intrinsics;
+  intrinsics.fx = right ? 190.442 : 190.978;
+  intrinsics.fy = right ? 190.434 : 190.973;
+  intrinsics.cx = right ? 252.597 : 254.931;
+  intrinsics.cy = right ? 254.917 : 256.897;
+  intrinsics.width = intrinsics.height = 512;
+  intrinsics.model = DistortionModel::kEquidistant;
+  intrinsics.distortion = {0.00348, 0.000715, -0.002053, 0.000203};
+  if (right) intrinsics.distortion = {0.0034, 0.001766, -0.002663, 0.00033};
+  return intrinsics;
+}
+
 Camera MakeCamera(const SynthOptions& options, bool right, double scale) {
   if (options.lens != SynthLens::kEuroc) {
     return Camera(Scaled(WideIntrinsics(options, right), scale));
   }
+  if (options.camera == SynthCamera::kTumVi) return Camera(Scaled(TumViIntrinsics(right), scale));
   return Camera(Scaled(options.camera == SynthCamera::kKitti
                            ? KittiIntrinsics()
                            : EurocIntrinsics(options.distortion, right),
@@ -144,7 +159,7 @@ Calibration MakeCalibration(const SynthOptions& options) {
   calibration.left = MakeCamera(options, false, options.scale);
   calibration.right = MakeCamera(options, true, options.scale);
   calibration.right_from_left.translation = {-options.baseline, 0, 0};
-  const bool rectified = !options.distortion && options.lens == SynthLens::kEuroc;
+  const bool rectified = !options.distortion && !HasOtherLens(options);
   if (!rectified) {  // nor is any pair mounted in perfect alignment
     calibration.right_from_left.rotation = ExpSo3({0.0021, -0.0044, 0.0016});
     calibration.right_from_left.translation += Eigen::Vector3d(0, 0.0004, -0.0008);
@@ -206,7 +221,7 @@ std::vector<double> TexelSizes(const World& world,
 
 // Pixels per radian in the middle.
 double FocalOf(const SynthOptions& options, const Camera& left) {
-  return options.lens == SynthLens::kEuroc ? left.intrinsics().fx : left.CentreFocal();
+  return HasOtherLens(options) ? left.CentreFocal() : left.intrinsics().fx;
 }
 
 RendererOptions MakeRendererOptions(

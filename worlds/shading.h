@@ -42,8 +42,8 @@ class Shading {
   // Distance along the ray in units of its direction.
   float Distance(const SurfaceHit& hit, const Instant& instant) const;
 
-  // Texture level for samples `spacing` apart: the lengths on the plane z = 1 of the camera, right
-  // and down (world directions).
+  // Texture level for samples that are apart by these changes of the direction, right and down
+  // (world).
   int LevelOf(const SurfaceHit& hit,
               const Eigen::Vector3f& right,
               const Eigen::Vector3f& down,

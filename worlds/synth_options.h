@@ -16,10 +16,12 @@ namespace plumbline {
 enum class SynthCamera {
   kEuroc,  // 752 x 480, focal length 458 px, with or without lens distortion
   kKitti,  // 1241 x 376, focal length 718.856 px, ideal and rectified
+  kTumVi,  // 512 x 512, focal length 191 px, fisheye lenses of 195 degrees across the corners
 };
 constexpr auto EnumNames(std::type_identity<SynthCamera>) {
   return std::array{std::pair{SynthCamera::kEuroc, "euroc"},
-                    std::pair{SynthCamera::kKitti, "kitti"}};
+                    std::pair{SynthCamera::kKitti, "kitti"},
+                    std::pair{SynthCamera::kTumVi, "tum_vi"}};
 }
 
 // Lens of SynthCamera::kEuroc. kEuroc is EuRoC's; the others show `view_deg` across: pinhole
@@ -79,6 +81,11 @@ struct SynthOptions {
   std::uint64_t seed = 1;
 };
 
+// True unless the camera is EuRoC's or KITTI's with its own lens: then a camera.yaml describes it.
+inline bool HasOtherLens(const SynthOptions& options) {
+  return options.lens != SynthLens::kEuroc || options.camera == SynthCamera::kTumVi;
+}
+
 template <class Visitor>
 void VisitFields(Visitor&& visit, SynthOptions& o) {
   visit("frames", o.frames, "number of frames, at most; 0: the whole path", Range{0, 1e6});
@@ -87,13 +94,14 @@ void VisitFields(Visitor&& visit, SynthOptions& o) {
   visit("speed", o.speed, "of the path, 1 as the world has it", Range{0.05, 20});
   visit("camera",
         o.camera,
-        "euroc: 752 x 480 with a wide lens; kitti: 1241 x 376, ideal and rectified");
+        "euroc: 752 x 480 with a wide lens; kitti: 1241 x 376, ideal and rectified; tum_vi: 512 x "
+        "512 with a fisheye lens");
   visit("scale", o.scale, "of the image, 1 is that of the camera", Range{0.1, 4});
   visit("baseline", o.baseline, "distance of the two cameras [m]", Range{0.01, 1});
   visit("lens",
         o.lens,
         "of camera: euroc; all but euroc show view_deg across, and are written as camera.yaml");
-  visit("view_deg", o.view_deg, "view of the lens across [degrees]", Range{40, 130});
+  visit("view_deg", o.view_deg, "view of the lens across [degrees]", Range{40, 220});
   visit("distortion", o.distortion, "lens distortion; without it an ideal rectified pair");
   visit("samples", o.samples, "samples per pixel against aliasing", Range{1, 64});
   visit("shutter_ms", o.shutter_ms, "time the shutter is open, 0: no motion blur", Range{0, 200});

@@ -106,12 +106,76 @@ TEST(RayTable, AgreesWithTheCameraAcrossThePixel) {
   const RayTable table(camera);
   for (const auto& [x, y] : {std::pair{0, 0}, {199, 149}, {100, 20}, {3, 140}}) {
     for (const double d : {-0.5, 0.0, 0.4}) {
-      const Eigen::Vector2f ray = table.at(x, y).At(static_cast<float>(d), static_cast<float>(-d));
-      const auto px = camera.Project({ray.x(), ray.y(), 1});
+      const Eigen::Vector3f ray = table.at(x, y).At(static_cast<float>(d), static_cast<float>(-d));
+      ASSERT_EQ(ray.z(), 1);
+      const auto px = camera.Project(ray.cast<double>());
       ASSERT_TRUE(px);
       EXPECT_LT((*px - Vector2d(x + d, y - d)).norm(), 0.01);  // the slope is linear
     }
   }
+}
+
+// A fisheye lens of 200 x 200 pixels; its corners are beyond the end of the lens.
+Camera Fisheye() {
+  CameraIntrinsics intrinsics;
+  intrinsics.width = 200;
+  intrinsics.height = 200;
+  intrinsics.cx = intrinsics.cy = 99.5;
+  intrinsics.model = DistortionModel::kDoubleSphere;
+  intrinsics.fx = intrinsics.fy = 45;
+  intrinsics.distortion = {0.1, 0.6};
+  return Camera(intrinsics);
+}
+
+TEST(RayTable, HasTheRaysOfALensThatSeesBesideItself) {
+  const Camera camera = Fisheye();
+  const RayTable table(camera);
+  int beside = 0, none = 0;
+  for (int y = 0; y < 200; y += 3) {
+    for (int x = 0; x < 200; x += 3) {
+      const RayTable::Entry& entry = table.at(x, y);
+      const auto expected = camera.Ray(Vector2d(x, y));
+      ASSERT_EQ(entry.seen, expected.has_value());
+      none += entry.seen ? 0 : 1;
+      if (!entry.seen) continue;
+      EXPECT_LT((entry.ray.cast<double>() - expected->normalized()).norm(), 1e-6);
+      beside += entry.ray.z() < 0 ? 1 : 0;
+      const auto px = camera.Project(entry.At(0.4F, -0.3F).cast<double>());
+      if (px && (entry.ray.z() > 0)) {
+        EXPECT_LT((*px - Vector2d(x + 0.4, y - 0.3)).norm(), 0.02);
+      }
+    }
+  }
+  EXPECT_GT(beside, 100);
+  EXPECT_GT(none, 10) << "the corners are beyond the end of the lens";
+}
+
+TEST(Renderer, AFisheyeShowsWhatStandsBesideTheCamera) {
+  Scene scene;
+  scene.ambient = 0;
+  Surface white = Painted({-4, 1, -2}, {3.5, 0, 0}, {0, 0, 4}, 2);  // left, behind the camera alone
+  white.glow = 1;
+  Surface dark = Painted({1, -2, -2}, {0, 4, 0}, {0, 0, 4}, 0);  // before it
+  scene.surfaces = {white, dark};
+  const Renderer renderer(scene, WithTexels(scene, 0.05));
+  const Camera camera = Fisheye();
+  const Rendering rendering = renderer.Render(RayTable(camera), LevelView());
+  const auto pixel = [&](double degrees) -> Vector2d {
+    const double angle = degrees * M_PI / 180;
+    return *camera.Project({-std::sin(angle), 0, std::cos(angle)});
+  };
+  // The wall begins 26.6 degrees behind the plane of the camera: 116.6 degrees off the axis.
+  ASSERT_GT(camera.MaxAngle(), 125 * M_PI / 180);
+  const Vector2d on_wall = pixel(124), before_it = pixel(105);
+  EXPECT_GT(Bilinear(rendering.light, on_wall), 200);
+  EXPECT_EQ(Bilinear(rendering.light, before_it), 0);
+  const auto depth_at = [&](const Vector2d& px) {
+    return rendering.depth.at(static_cast<int>(px.x()), static_cast<int>(px.y()));
+  };
+  EXPECT_EQ(depth_at(on_wall), 0) << "behind the camera";
+  EXPECT_NEAR(depth_at(pixel(20)), 1, 1e-4);
+  const float corner = rendering.light.at(0, 0);
+  EXPECT_EQ(corner, 0);
 }
 
 TEST(Renderer, DepthIsThatOfTheNearestSurface) {

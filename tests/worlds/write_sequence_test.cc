@@ -361,9 +361,11 @@ TEST(SyntheticSequence, EveryLensSeesWhatAPinholeSees) {
 
 TEST(WriteSequence, AnyLensIsReadAsItWasRendered) {
   for (const auto& [format, lens] : {std::pair{SequenceFormat::kEuroc, SynthLens::kOmni},
+                                     {SequenceFormat::kEuroc, SynthLens::kEuroc},
                                      {SequenceFormat::kTum, SynthLens::kRational}}) {
     SynthOptions options = Small();
     options.frames = 2;
+    if (lens == SynthLens::kEuroc) options.camera = SynthCamera::kTumVi;
     options.lens = lens;
     options.view_deg = 90;
     const ScratchFolder folder;
