@@ -49,6 +49,7 @@ CommandSyntax InfoSyntax() {
        {"--rotate", "auto|none|90|180|270", kRotateHelp},
        {"--max-width", "PIXELS", kMaxWidthHelp},
        {"--view-angle", "DEGREES", kViewAngleHelp},
+       {"--mask", "FILE|TOPIC", "black is not used; once for each camera: tells the share"},
        {"--check", "", "decode every image and name those that cannot be used"}}};
 }
 
@@ -277,6 +278,7 @@ int InfoCommand(std::span<const std::string> arguments) {
   options.rotate = ReadRotation(line);
   options.max_width = ReadMaxWidth(line);
   options.view_angle_deg = ReadViewAngle(line);
+  options.masks = line.Values("--mask");
   if (const auto text = line.Value("--sensor")) {
     options.sensor = ParseChoice<SensorKind>("--sensor", *text);
   }

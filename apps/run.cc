@@ -10,6 +10,7 @@
 #include "plumbline/io/live/live_source.h"
 #include "plumbline/io/live/open_live_source.h"
 #include "plumbline/io/map_file/map_io.h"
+#include "plumbline/io/map_file/map_view_angle.h"
 #include "plumbline/io/recordings/mcap_file_writer.h"
 #include "plumbline/report/run_folder.h"
 #include "plumbline/slam/options_without_effect.h"
@@ -239,10 +240,18 @@ void Say(const std::string& note) {
   std::clog << "plumbline: " << Printable(note, kLongestMessage) << '\n';
 }
 
-// Opens a recording. If it lacks the sensor of the preset, the message names the preset.
-std::unique_ptr<Dataset> OpenRecorded(const CommandLine& line) {
+// Opens a recording, for a map that it goes on in with the view angle of the map. If it lacks the
+// sensor of the preset, the message names the preset.
+std::unique_ptr<Dataset> OpenRecorded(const CommandLine& line, const SavedAtlas* map) {
   try {
-    return OpenDataset(line.Positional(0), ReadDatasetOptions(line));
+    DatasetOptions options = ReadDatasetOptions(line);
+    auto dataset = OpenDataset(line.Positional(0), options);
+    if (map == nullptr || options.view_angle_deg) return dataset;
+    options.view_angle_deg = ViewAngleOfMap(map->context.camera, dataset->calibration());
+    if (!options.view_angle_deg) return dataset;
+    Say(fmt::format("the images are cut out as for the map: --view-angle {:g}",
+                    *options.view_angle_deg));
+    return OpenDataset(line.Positional(0), options);
   } catch (const MissingSensor& error) {
     const auto preset = line.Value("--preset");
     if (!preset || line.Has("--sensor")) throw;
@@ -271,7 +280,7 @@ void SayWithoutEffect(const RunSetup& setup, const Dataset& dataset) {
   }
 }
 
-RunFrames OpenInput(const CommandLine& line, const RunSetup& setup) {
+RunFrames OpenInput(const CommandLine& line, const RunSetup& setup, const SavedAtlas* map) {
   if (LiveKindOf(line.Positional(0))) return OpenLive(line, setup);
   if (line.Has("--side-by-side")) {
     throw InputError("--side-by-side: expected a live source, found " +
@@ -280,7 +289,7 @@ RunFrames OpenInput(const CommandLine& line, const RunSetup& setup) {
   RunFrames input;
   input.blur = setup.blur;
   input.save_every_s = setup.save_every_s;
-  auto dataset = OpenRecorded(line);
+  auto dataset = OpenRecorded(line, map);
   input.frames = ChooseFrames(line, *dataset);
   input.dataset = std::move(dataset);
   return input;
@@ -299,13 +308,13 @@ struct LoadedMap {
   std::vector<std::string> notes;  // System::Continue
 };
 
-// Reads the map that is to be gone on in, whole, before anything is written.
-LoadedMap LoadMapInto(System& system, const RunSetup& setup) {
-  if (!setup.map) return {};
-  SavedAtlas saved = LoadAtlas(*setup.map);
-  const std::size_t sessions = saved.context.sessions.size();
+// Gives the map that is to be gone on in, which was read whole before anything is written, to the
+// system.
+LoadedMap MoveMapInto(System& system, const RunSetup& setup, std::optional<SavedAtlas> saved) {
+  if (!saved) return {};
+  const std::size_t sessions = saved->context.sessions.size();
   try {
-    return {sessions, system.Continue(std::move(saved), setup.localize)};
+    return {sessions, system.Continue(*std::move(saved), setup.localize)};
   } catch (const InputError& error) {
     throw InputError(setup.map->string() + ": " + error.what());
   }
@@ -431,12 +440,14 @@ int RunCommand(std::span<const std::string> arguments) {
   }
   const auto start = Clock::now();
   RunSetup setup = ReadSetup(line);
-  RunFrames input = OpenInput(line, setup);
+  std::optional<SavedAtlas> map;
+  if (setup.map) map = LoadAtlas(*setup.map);
+  RunFrames input = OpenInput(line, setup, map ? &*map : nullptr);
   const std::vector<RunInput> inputs = InputsOf(line, *input.dataset);
   CheckApart(setup.folder, inputs);
   if (setup.view.record) CheckRecording(*setup.view.record, setup.folder, inputs);
   System system(input.dataset->calibration(), setup.options, {}, ProgramMethods());
-  const LoadedMap loaded = LoadMapInto(system, setup);
+  const LoadedMap loaded = MoveMapInto(system, setup, std::move(map));
   RunFolder folder(setup.folder);
   OpenViewer(line, setup, system.rectifier().camera(), loaded, input);
   WriteOptions(setup, folder);

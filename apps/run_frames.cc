@@ -115,6 +115,7 @@ class FrameFeed {
     journal_.Add(record);
     SaveMapIfDue();
     views_.Offer(position, view);
+    WatchStillFeatures(position, record, view);
     progress_.Show(record);
     if (!input_.viewer) return;
     input_.viewer->Show(record, view, system_.EventsSince(events_shown_).relocalizations);
@@ -207,15 +208,25 @@ class FrameFeed {
     }
   }
 
+  // In the thread that tracks. Text may keep a map from beginning, or spoil it: frames without a
+  // pose tell of it, too.
+  void WatchStillFeatures(std::size_t position, const FrameRecord& record, const FrameView& view) {
+    constexpr std::size_t kStride = 4;  // frames; compared are those about a second apart
+    if (record.status == FrameStatus::kTracked) still_.Restart();
+    if (position % kStride != 0 || !view.frame.indexed) return;
+    if (record.status == FrameStatus::kTracked) return;
+    still_.Add(MeasuredFeatures(*view.frame.indexed).points);
+  }
+
   // Tells of text or a part of the robot in the images.
   void TellStillFeatures() {
+    std::optional<std::string> note = StillFeaturesNote(still_.Result());
     for (const auto& [id, map] : result_.result.atlas.maps()) {
-      const auto note = StillFeaturesNote(FindStillFeatures(map));
-      if (!note) continue;
-      result_.notes.push_back(*note);
-      if (!quiet_) progress_.Say(*note);
-      return;
+      if (!note) note = StillFeaturesNote(FindStillFeatures(map));
     }
+    if (!note) return;
+    result_.notes.push_back(*note);
+    if (!quiet_) progress_.Say(*note);
   }
 
   // "12 of 30 frames", or "12 frames" of a live source.
@@ -260,6 +271,7 @@ class FrameFeed {
   // The tracking thread's until it ends.
   std::size_t frames_done_ = 0;
   MapEventCounts events_shown_;
+  StillFeatureFinder still_;        // of the frames without a pose
   int without_depth_ = 0;           // depth images that were looked at
   const char* shortage_ = nullptr;  // that result_.failure is about, while it has no name
   Progress progress_;

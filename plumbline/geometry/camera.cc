@@ -263,9 +263,9 @@ void Expect(bool condition, const char* expected, double found) {
 
 std::optional<std::string> CoefficientFault(const CameraIntrinsics& in) {
   const std::array<double, kMostCoefficients>& k = in.distortion;
-  const auto fault = [](bool right, const char* expected, double found) {
+  const auto fault = [&](bool right, const char* expected, double found) {
     std::ostringstream text;
-    text << "expected " << expected << ", found " << found;
+    text << FormOf(in.model).name << ": expected " << expected << ", found " << found;
     return right ? std::nullopt : std::optional(text.str());
   };
   const auto alpha_fault = [&](double alpha) {

@@ -51,37 +51,39 @@ std::size_t CountStill(const std::vector<PointFeature>& before,
 
 bool StillFeatures::Likely() const { return pairs >= kFewestPairs && 2 * with_still > pairs; }
 
-StillFeatures FindStillFeatures(const Map& map) {
-  StillFeatures result;
-  std::vector<std::vector<PointFeature>> last;  // of the keyframes before, a ring of kGap
-  std::size_t number = 0;
-  SessionId session;
-  double shares = 0;
-  for (const auto& [id, keyframe] : map.keyframes()) {
-    if (number > 0 && keyframe.session != session) {
-      last.clear();
-      number = 0;
-    }
-    session = keyframe.session;
-    std::vector<PointFeature> points = MeasuredFeatures(*keyframe.frame.indexed).points;
-    if (last.size() < kGap) {
-      last.push_back(std::move(points));
-      ++number;
-      continue;
-    }
-    std::vector<PointFeature>& before = last[number++ % kGap];
-    const std::size_t still = CountStill(before, points);
-    const double share =
-        points.empty() ? 1 : static_cast<double>(still) / static_cast<double>(points.size());
-    before = std::move(points);
-    if (share > kRestShare) continue;
-    ++result.pairs;
-    if (still < kManyFeatures || share < kManyShare) continue;
-    ++result.with_still;
-    shares += share;
+void StillFeatureFinder::Add(std::vector<PointFeature> points) {
+  if (last_.size() < kGap) {
+    last_.push_back(std::move(points));
+    ++number_;
+    return;
   }
-  if (result.with_still > 0) result.share = shares / static_cast<double>(result.with_still);
+  std::vector<PointFeature>& before = last_[number_++ % kGap];
+  const std::size_t still = CountStill(before, points);
+  const double share =
+      points.empty() ? 1 : static_cast<double>(still) / static_cast<double>(points.size());
+  before = std::move(points);
+  if (share > kRestShare) return;
+  ++found_.pairs;
+  if (still < kManyFeatures || share < kManyShare) return;
+  ++found_.with_still;
+  shares_ += share;
+}
+
+StillFeatures StillFeatureFinder::Result() const {
+  StillFeatures result = found_;
+  if (result.with_still > 0) result.share = shares_ / static_cast<double>(result.with_still);
   return result;
+}
+
+StillFeatures FindStillFeatures(const Map& map) {
+  StillFeatureFinder finder;
+  std::optional<SessionId> session;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    if (session && keyframe.session != *session) finder.Restart();
+    session = keyframe.session;
+    finder.Add(MeasuredFeatures(*keyframe.frame.indexed).points);
+  }
+  return finder.Result();
 }
 
 std::optional<std::string> StillFeaturesNote(const StillFeatures& still) {

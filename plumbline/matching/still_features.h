@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/features/types.h"
 #include "plumbline/map/map.h"
 
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace plumbline {
 
@@ -19,6 +21,21 @@ struct StillFeatures {
 
   // True if something is likely to be in most images that does not belong to the scene.
   bool Likely() const;
+};
+
+// Compares the features of images, in the order of time, each with those of the fifth before it.
+class StillFeatureFinder {
+ public:
+  void Add(std::vector<PointFeature> points);
+  // Forgets the images so far, but not what was found in them.
+  void Restart() { last_.clear(), number_ = 0; }
+  StillFeatures Result() const;
+
+ private:
+  std::vector<std::vector<PointFeature>> last_;  // of the images before, a ring
+  std::size_t number_ = 0;                       // of images since the start
+  StillFeatures found_;
+  double shares_ = 0;
 };
 
 // Compares each keyframe with the fifth before it, of the same session: features within a pixel of

@@ -7,6 +7,7 @@
 #include "plumbline/io/export/png.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include <opencv2/imgproc.hpp>
 
@@ -31,6 +32,19 @@ std::string SmallJpegOf(const GrayImage& image) {
   return EncodeJpeg(pixels, kJpegQuality);
 }
 
+// The left image, dark where the mask of the frame leaves it out.
+GrayImage WithMask(const RectifiedFrame& images) {
+  GrayImage shown = images.left;
+  const GrayImage& mask = images.left_mask;
+  if (mask.width() != shown.width() || mask.height() != shown.height()) return shown;
+  const auto dark = [](std::uint8_t level, std::uint8_t used) {
+    return static_cast<std::uint8_t>(used != 0 ? level : level / 4);
+  };
+  const std::int64_t pixels = std::int64_t{shown.width()} * shown.height();
+  std::transform(shown.data(), shown.data() + pixels, mask.data(), shown.data(), dark);
+  return shown;
+}
+
 constexpr Color kMatchedPoint{0, 230, 0};
 constexpr Color kFreePoint{150, 150, 150};
 constexpr Color kMatchedLine{255, 140, 0};
@@ -44,7 +58,7 @@ SampleImage MakeSampleImage(const FrameView& view, const std::string& file) {
   sample.file = file;
   sample.width = view.images.left.width();
   sample.height = view.images.left.height();
-  sample.jpeg = SmallJpegOf(view.images.left);
+  sample.jpeg = SmallJpegOf(WithMask(view.images));
   const Features features = MeasuredFeatures(*view.frame.indexed);
   for (std::size_t i = 0; i < features.points.size(); ++i) {
     const bool matched = view.frame.points[i].valid();
@@ -68,7 +82,7 @@ void WriteFeatureOverlay(const FrameView& view, const std::filesystem::path& pat
     const bool matched = view.frame.lines[i].valid();
     overlay.segments.push_back({features.lines[i].segment, matched ? kMatchedLine : kFreeLine});
   }
-  WriteOverlayPng(path, view.images.left, overlay);
+  WriteOverlayPng(path, WithMask(view.images), overlay);
 }
 
 }  // namespace plumbline

@@ -125,7 +125,8 @@ TEST(DistortionFault, KeepsToTheBoundsOfTheModel) {
   CameraIntrinsics in = Intrinsics();
   in.model = DistortionModel::kDoubleSphere;
   in.distortion = {0.1, 1.5};
-  EXPECT_THAT(DistortionFault(in), Optional(std::string("expected alpha from 0 to 1, found 1.5")));
+  EXPECT_THAT(DistortionFault(in),
+              Optional(std::string("double_sphere: expected alpha from 0 to 1, found 1.5")));
   in.model = DistortionModel::kOmni;
   in.distortion = {1.2, -0.1};
   EXPECT_EQ(DistortionFault(in), std::nullopt);

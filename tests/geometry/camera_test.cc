@@ -338,12 +338,13 @@ TEST(Camera, RefusesImpossibleNumbersByName) {
   EXPECT_EQ(message(in), "camera: expected finite distortion, found nan");
   using enum DistortionModel;
   EXPECT_EQ(message(Lens(kDoubleSphere, 200, {0.1, 1.2})),
-            "camera: expected alpha from 0 to 1, found 1.2");
+            "camera: double_sphere: expected alpha from 0 to 1, found 1.2");
   EXPECT_EQ(message(Lens(kDoubleSphere, 200, {-1, 0.5})),
-            "camera: expected xi above -1, at most 1, found -1");
-  EXPECT_EQ(message(Lens(kEucm, 200, {0.5, 0})), "camera: expected beta above 0, found 0");
-  EXPECT_EQ(message(Lens(kOmni, 200, {-0.5})), "camera: expected xi from 0 to 1000, found -0.5");
-  EXPECT_EQ(message(Lens(kFov, 200, {0})), "camera: expected w between 0 and pi, found 0");
+            "camera: double_sphere: expected xi above -1, at most 1, found -1");
+  EXPECT_EQ(message(Lens(kEucm, 200, {0.5, 0})), "camera: eucm: expected beta above 0, found 0");
+  EXPECT_EQ(message(Lens(kOmni, 200, {-0.5})),
+            "camera: omni: expected xi from 0 to 1000, found -0.5");
+  EXPECT_EQ(message(Lens(kFov, 200, {0})), "camera: fov: expected w between 0 and pi, found 0");
   EXPECT_EQ(message(Pinhole()), "no error");
 }
 

@@ -100,7 +100,8 @@ TEST(ReadBasalt, SaysWhatIsWrong) {
   EXPECT_THAT(message(Lens("ds", ", \"xi\": 0.1"), none, none),
               HasSubstr("calibration.json:10: value0.intrinsics[0].intrinsics.alpha: expected"));
   EXPECT_THAT(message(Lens("ds", ", \"xi\": 0.1, \"alpha\": 7"), none, none),
-              HasSubstr("calibration.json:10: value0.intrinsics[0].intrinsics.xi: expected alpha "
+              HasSubstr("calibration.json:10: value0.intrinsics[0].intrinsics.alpha: "
+                        "double_sphere: expected alpha "
                         "from 0 to 1, found 7"));
   EXPECT_THAT(message(pinhole, "[640, 480],", ""), HasSubstr("value0.resolution: expected 2 rows"));
   EXPECT_THAT(message(pinhole, "0.13", "-0.13"), HasSubstr("T_imu_cam: expected the right camera"));

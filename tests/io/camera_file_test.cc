@@ -447,7 +447,7 @@ TEST(FormatCamera, WritesEveryModel) {
                   std::string(kMono) + "distortion: eucm\ndistortion_coefficients: [0.5, -1]\n",
                   "c.yaml");
             }),
-            "c.yaml:5: distortion_coefficients: expected beta above 0, found -1");
+            "c.yaml:5: distortion_coefficients: eucm: expected beta above 0, found -1");
 }
 
 TEST(FindCamera, ReadsAFileAndTellsItsFormat) {

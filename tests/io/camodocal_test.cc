@@ -65,8 +65,9 @@ TEST(ReadCamodocal, ReadsMei) {
                     .distortion = {1.9, -0.03, 0.1, 0.0001, -0.001}}));
   std::string wrong = mei;
   wrong.replace(wrong.find("1.9"), 3, "-1.9");
-  EXPECT_THAT(MessageOf([&] { ParseCamera(wrong, "cam0.yaml"); }),
-              HasSubstr("cam0.yaml:8: mirror_parameters: expected xi from 0 to 1000, found -1.9"));
+  EXPECT_THAT(
+      MessageOf([&] { ParseCamera(wrong, "cam0.yaml"); }),
+      HasSubstr("cam0.yaml:8: mirror_parameters: omni: expected xi from 0 to 1000, found -1.9"));
 }
 
 TEST(ReadCamodocal, SaysWhatIsWrong) {

@@ -74,10 +74,12 @@ TEST(ReadColmapCameras, SaysWhatIsWrong) {
             "cameras.txt:4: expected 6 numbers behind PINHOLE, found 5");
   EXPECT_THAT(message("1 PINHOLE 640 480 500 501 320 x\n"),
               HasSubstr("cameras.txt:4: expected a number, found 'x'"));
+  EXPECT_THAT(message("1 OPENCV width 480 500 501 320 240 0 0 0 0\n"),
+              HasSubstr("cameras.txt:4: expected a number, found 'width'"));
   EXPECT_THAT(message("1 PINHOLE 640 480 -5 501 320 240\n"),
               HasSubstr("cameras.txt:4: expected fx from"));
   EXPECT_THAT(message("1 FOV 640 480 500 501 320 240 4\n"),
-              HasSubstr("cameras.txt:4: expected w between 0 and pi, found 4"));
+              HasSubstr("cameras.txt:4: fov: expected w between 0 and pi, found 4"));
   EXPECT_THAT(message("1 PINHOLE 640 480 500 501 320 240\n2 PINHOLE 640 480 500 501 320 240\n"),
               HasSubstr("cameras.txt:5: expected one camera, found another one"));
 }

@@ -169,6 +169,33 @@ TEST(PreparedDataset, FramesMayHaveMasksOfTheirOwn) {
   EXPECT_EQ(OpenDataset(folder.path(), {.masks = {mask}})->Read(0)->left_mask->at(2, 0), 0);
 }
 
+TEST(PreparedDataset, TellsTheShareThatAMaskLeavesOut) {
+  const ScratchFolder folder;
+  WriteTumFolder(folder);
+  const auto notes = [&](int black_columns) {
+    const std::string mask = folder.Write("mask.png", MaskOf(8, 6, black_columns)).string();
+    return OpenDataset(folder.path(), {.masks = {mask}})->info().notes;
+  };
+  EXPECT_THAT(notes(2), testing::Contains(testing::EndsWith("leaves out 25 % of the image")));
+  EXPECT_THAT(notes(6), testing::Contains(HasSubstr("75 % of the image; is it inverted?")));
+  EXPECT_THAT(notes(0), testing::Contains(HasSubstr("nothing in it is black")));
+  EXPECT_THAT(MessageOf([&] { notes(8); }), HasSubstr("mask.png: expected a mask with pixels"));
+}
+
+TEST(PreparedDataset, ABadMaskOfAFrameCostsTheMaskAlone) {
+  const ScratchFolder folder;
+  WriteTumFolder(folder);
+  for (const std::string& bad : {std::string("text"), MaskOf(9, 6, 1)}) {
+    folder.Write("mask0/1.png", bad);
+    const auto dataset = OpenDataset(folder.path());
+    ASSERT_TRUE(dataset->Read(0));
+    EXPECT_EQ(dataset->Read(0)->left_mask, nullptr);
+    EXPECT_THAT(dataset->info().notes,
+                testing::Contains(testing::AllOf(HasSubstr("mask0/1.png: "),
+                                                 HasSubstr("this mask cannot be used"))));
+  }
+}
+
 TEST(PreparedDataset, SaysWhatIsWrongWithAMask) {
   const ScratchFolder folder;
   WriteTumFolder(folder);

@@ -51,6 +51,28 @@ TEST(ReadGrayImage, ReadsLosslessTypesAlike) {
   }
 }
 
+// Only zero is black, at any depth and in any channel.
+TEST(ReadMask, UsesWhatIsNotZero) {
+  const ScratchFolder folder;
+  const auto mask_of = [&](const cv::Mat& image, const std::string& extension) {
+    const auto mask = ReadMask(folder.Write("m" + extension, Encoded(image, extension)));
+    return mask ? std::vector<int>(mask->data(), mask->data() + mask->width()) : std::vector<int>();
+  };
+  const std::vector<int> wanted = {0, 255, 255};
+  EXPECT_EQ(mask_of((cv::Mat_<std::uint8_t>(1, 3) << 0, 1, 255), ".png"), wanted);
+  const cv::Mat deep = (cv::Mat_<std::uint16_t>(1, 3) << 0, 1, 65535);
+  EXPECT_EQ(mask_of(deep, ".png"), wanted);
+  EXPECT_EQ(mask_of(deep, ".pgm"), wanted);
+  const cv::Mat color =
+      (cv::Mat_<cv::Vec3b>(1, 3) << cv::Vec3b(0, 0, 0), cv::Vec3b(1, 0, 0), cv::Vec3b(0, 0, 1));
+  EXPECT_EQ(mask_of(color, ".png"), wanted);
+  EXPECT_EQ(mask_of(color, ".bmp"), wanted);
+  const cv::Mat deep_color =
+      (cv::Mat_<cv::Vec3w>(1, 3) << cv::Vec3w(0, 0, 0), cv::Vec3w(1, 0, 0), cv::Vec3w(0, 0, 1));
+  EXPECT_EQ(mask_of(deep_color, ".png"), wanted);
+  EXPECT_TRUE(ReadMask(folder / "m.png", ImageSize{4, 1}).error().other_size);
+}
+
 TEST(ReadGrayImage, DecodesTheWantedSizeAlone) {
   const ScratchFolder folder;
   const auto file = folder.Write("a.png", Encoded(Pattern(), ".png"));

@@ -151,7 +151,13 @@ TEST(ReadKalibr, ReadsModelsOfSpheres) {
   EXPECT_THAT(MessageOf([&] { ParseCamera(WideText("ds", "0.1", none), "camchain.yaml"); }),
               HasSubstr("camchain.yaml:6: cam0.intrinsics: expected 6 numbers, found 5"));
   EXPECT_THAT(MessageOf([&] { ParseCamera(WideText("eucm", "0.1, -1", none), "camchain.yaml"); }),
-              HasSubstr("camchain.yaml:6: cam0.intrinsics: expected beta above 0, found -1"));
+              HasSubstr("camchain.yaml:6: cam0.intrinsics: eucm: expected beta above 0, found -1"));
+  // The key is that of the number, wherever the others of the model stand.
+  EXPECT_THAT(MessageOf([&] {
+                ParseCamera(WideText("omni", "-1", "[0, 0, 0, 0]\n  distortion_model: radtan"),
+                            "camchain.yaml");
+              }),
+              HasSubstr("camchain.yaml:6: cam0.intrinsics: omni: expected xi from 0"));
 }
 
 TEST(ReadKalibr, BadFilesAreNamedByLineAndKey) {

@@ -84,15 +84,18 @@ TEST(ReadOpenCvCalibration, RateAndDepthFactorMayBeAdded) {
 
 TEST(ReadOpenCvCalibration, KnowsAFisheyeByItsModel) {
   const std::string four = CoefficientsOf("0.1, 0.02, -0.003, 0.0004");
-  for (const char* row :
-       {"distortion_model: equidistant\n", "distortion_model: fisheye\n", "fisheye_model: 1\n"}) {
+  for (const char* row : {"distortion_model: equidistant\n",
+                          "distortion_model: fisheye\n",
+                          "fisheye_model: 1\n",
+                          "fisheye_model: true\n"}) {
     const CameraIntrinsics k = Parse(four + row).intrinsics();
     EXPECT_EQ(k.model, DistortionModel::kEquidistant) << row;
     EXPECT_EQ(k.distortion[3], 0.0004) << row;
     EXPECT_THAT(MessageFor(CoefficientsOf("0.1, 0.02, 0, 0, 0") + row),
                 HasSubstr("ost.yaml:4: distortion_coefficients.data: expected 4 numbers, found 5"));
   }
-  for (const char* row : {"", "fisheye_model: 0\n", "distortion_model: plumb_bob\n"}) {
+  for (const char* row :
+       {"", "fisheye_model: 0\n", "fisheye_model: false\n", "distortion_model: plumb_bob\n"}) {
     EXPECT_EQ(Parse(four + row).intrinsics().model, DistortionModel::kRadTan) << row;
   }
   EXPECT_EQ(MessageFor(four + "distortion_model: thin_prism\n"),
@@ -149,6 +152,14 @@ TEST(ReadOpenCvCalibration, KnowsAnOmnidirectionalCameraByXi) {
       Parse(CoefficientsOf("0.1, 0.02, -0.003, 0.0004") + "xi: 1.2\n").intrinsics();
   EXPECT_EQ(k.model, DistortionModel::kOmni);
   EXPECT_THAT(k.distortion, testing::ElementsAre(1.2, 0.1, 0.02, -0.003, 0.0004, 0, 0, 0));
+  // cv::omnidir::calibrate gives xi as a matrix.
+  const std::string numbers = CoefficientsOf("0.1, 0.02, -0.003, 0.0004");
+  const std::string xi =
+      "xi: !!opencv-matrix\n   rows: 1\n   cols: 1\n   dt: d\n   data: [ 1.2 ]\n";
+  EXPECT_EQ(Parse(numbers + xi).intrinsics(), k);
+  EXPECT_THAT(MessageFor(numbers + "xi: -2\n"), HasSubstr(": xi: omni: expected xi from 0"));
+  EXPECT_THAT(MessageFor(CoefficientsOf("-40, 0, 0, 0") + "xi: 1\n"),
+              HasSubstr("distortion_coefficients: expected a distortion that has a ray"));
 }
 
 TEST(ReadOpenCvCalibration, BadFilesAreNamedByLineAndKey) {

@@ -63,6 +63,19 @@ TEST(FindStillFeatures, TellsTextInAllImages) {
               ::testing::Optional(::testing::HasSubstr("6 % of the points stand still")));
 }
 
+TEST(StillFeatureFinder, TellsOfImagesWithoutAMap) {
+  StillFeatureFinder finder;
+  const Map map = MapOf(12, 30, 4);
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    finder.Add(MeasuredFeatures(*keyframe.frame.indexed).points);
+  }
+  EXPECT_EQ(finder.Result().pairs, 7U);
+  EXPECT_TRUE(finder.Result().Likely());
+  finder.Restart();
+  finder.Add({});
+  EXPECT_EQ(finder.Result().pairs, 7U) << "nothing to compare with";
+}
+
 TEST(FindStillFeatures, KnowsASceneThatMovesAndACameraAtRest) {
   EXPECT_FALSE(FindStillFeatures(MapOf(20, 0, 4)).Likely());
   EXPECT_EQ(FindStillFeatures(MapOf(20, 0, 4)).with_still, 0U);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/datasets/image_file.h"
 #include "plumbline/io/map_file/map_io.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/run_files.h"
@@ -12,6 +13,9 @@
 #include "tests/report/poster_run.h"
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -445,6 +449,21 @@ TEST(Overlay, IsWrittenForTheLastFrame) {
   const ScratchFolder folder;
   WriteFeatureOverlay(run.view(), folder / "overlay.png");
   EXPECT_EQ(Contents(folder / "overlay.png").substr(1, 3), "PNG");
+  const auto mean = [](const std::filesystem::path& file) {
+    const auto image = ReadGrayImage(file);
+    const auto pixels = static_cast<std::ptrdiff_t>(image->width()) * image->height();
+    return std::accumulate(image->data(), image->data() + pixels, 0.0) /
+           static_cast<double>(pixels);
+  };
+  // What the mask of a frame leaves out is dark.
+  FrameView masked = run.view();
+  GrayImage mask(masked.images.left.width(), masked.images.left.height(), 255);
+  masked.images.left_mask = mask;
+  WriteFeatureOverlay(masked, folder / "white.png");
+  EXPECT_EQ(Contents(folder / "white.png"), Contents(folder / "overlay.png"));
+  masked.images.left_mask = GrayImage(mask.width(), mask.height());
+  WriteFeatureOverlay(masked, folder / "black.png");
+  EXPECT_LT(mean(folder / "black.png"), 0.7 * mean(folder / "overlay.png"));
 }
 
 }  // namespace

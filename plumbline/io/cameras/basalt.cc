@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/core.h>
+
 namespace plumbline {
 namespace {
 
@@ -49,7 +51,12 @@ Camera ReadBasaltCamera(const YamlSection& section, int width, int height) {
       in.distortion[i] = numbers.Number(model.keys[i]);
     }
     if (name == "ucm") in.distortion[1] = 1;
-    const std::string last = model.keys.empty() ? "fx" : model.keys.front();
+    // The key of the coefficient that is out of bounds: the message names it.
+    std::string last = model.keys.empty() ? "fx" : model.keys.front();
+    const std::string fault = CoefficientFault(in).value_or("");
+    for (const auto& key : model.keys) {
+      if (fault.find(fmt::format("expected {} ", key)) != std::string::npos) last = key;
+    }
     return CheckedCamera(numbers, {"fx", {"fx", "fy", "cx", "cy"}, last}, in);
   }
   section.Fail(

@@ -75,7 +75,9 @@ Camera ReadListedCamera(const YamlSection& section,
     std::copy(d.begin(), d.end(), intrinsics.distortion.begin() + static_cast<int>(leading));
   }
   const std::string& key = keys.intrinsics;
-  const std::string& last = more ? keys.coefficients : key;
+  // Coefficients with bounds (alpha, xi) stand before the others.
+  const bool leads = leading > 0 && CoefficientFault(intrinsics);
+  const std::string& last = more && !leads ? keys.coefficients : key;
   return CheckedCamera(section, {keys.size, {key, key, key, key}, last}, intrinsics);
 }
 

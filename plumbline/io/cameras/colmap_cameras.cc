@@ -105,7 +105,9 @@ bool IsColmapCameras(const std::string& text) {
   if (rows.empty() || rows.front().fields.size() < kFewest) return false;
   const std::vector<std::string>& fields = rows.front().fields;
   const std::string& model = fields[1];
-  return IsWhole(fields[0]) && IsWhole(fields[2]) && IsWhole(fields[3]) &&
+  const bool known =
+      std::ranges::any_of(kColmapModels, [&](const ColmapModel& one) { return one.name == model; });
+  return IsWhole(fields[0]) && (known || (IsWhole(fields[2]) && IsWhole(fields[3]))) &&
          std::all_of(model.begin(), model.end(), [](unsigned char c) {
            return std::isupper(c) != 0 || std::isdigit(c) != 0 || c == '_';
          });

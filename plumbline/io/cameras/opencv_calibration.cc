@@ -14,7 +14,10 @@ namespace {
 // ROS names the model. OpenCV's programs mark that of cv::fisheye, or know only the other one.
 bool IsFisheye(const YamlSection& root) {
   if (!root.Has("distortion_model")) {
-    return root.Has("fisheye_model") && root.Number("fisheye_model") != 0;
+    if (!root.Has("fisheye_model")) return false;
+    const std::string text = root.Text("fisheye_model");
+    const bool word = text == "true" || text == "false";
+    return word ? root.Bool("fisheye_model") : root.Number("fisheye_model") != 0;
   }
   const std::string name = root.Text("distortion_model");
   if (name == "equidistant" || name == "fisheye") return true;
@@ -52,12 +55,17 @@ Calibration ReadOpenCvCalibration(const YamlSection& root) {
   const bool omni = root.Has("xi");
   const auto read_distortion = omni ? ReadOmni : IsFisheye(root) ? ReadFisheye : ReadPinhole;
   read_distortion(root.Child(coefficients), intrinsics);
-  if (omni) intrinsics.distortion[0] = root.Number("xi");
+  // cv::omnidir writes xi as a matrix of one number.
+  if (omni) {
+    intrinsics.distortion[0] =
+        root.IsGroup("xi") ? root.Matrix("xi", 1, 1)(0, 0) : root.Number("xi");
+  }
+  const bool xi_fault = omni && CoefficientFault(intrinsics);
   Calibration calibration;
-  calibration.left =
-      CheckedCamera(root,
-                    {"image_width", {matrix, matrix, matrix, matrix}, omni ? "xi" : coefficients},
-                    intrinsics);
+  calibration.left = CheckedCamera(
+      root,
+      {"image_width", {matrix, matrix, matrix, matrix}, xi_fault ? "xi" : coefficients},
+      intrinsics);
   if (root.Has("rate_hz")) calibration.rate_hz = root.Positive("rate_hz");
   if (root.Has("depth_factor")) calibration.depth_factor = root.Positive("depth_factor");
   return calibration;

@@ -112,6 +112,10 @@ YamlSection YamlSection::Parse(const std::string& yaml, const std::string& sourc
 
 bool YamlSection::Has(const std::string& key) const { return place_->node[key].IsDefined(); }
 
+bool YamlSection::IsGroup(const std::string& key) const {
+  return Has(key) && place_->node[key].IsMap();
+}
+
 void YamlSection::Fail(const std::string& key, const std::string& message) const {
   place_->Fail(place_->node[key], key, message);
 }

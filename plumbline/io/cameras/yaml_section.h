@@ -24,6 +24,8 @@ class YamlSection {
   static YamlSection Parse(const std::string& yaml, const std::string& source);
 
   bool Has(const std::string& key) const;
+  // Returns true if the value of a key is a group of keys.
+  bool IsGroup(const std::string& key) const;
   [[noreturn]] void Fail(const std::string& key, const std::string& message) const;
   // Returns the line of an existing key as "source:line".
   std::string Where(const std::string& key) const;

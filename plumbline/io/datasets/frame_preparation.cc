@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -50,9 +51,9 @@ std::uint8_t WhiteUnlessBlack(std::uint8_t level) { return level != 0 ? 255 : 0;
 
 // Reads a mask of the images of a camera. Throws InputError if it cannot be read, or has another
 // size.
-GrayImage ReadMask(const std::string& path, const Camera& camera) {
+GrayImage MaskOfCamera(const std::string& path, const Camera& camera) {
   const ImageSize size = SizeOfImages(camera);
-  const Expected<GrayImage, ImageFailure> mask = ReadGrayImage(path, size);
+  const Expected<GrayImage, ImageFailure> mask = ReadMask(path, size);
   if (mask) return *mask;
   if (!mask.error().other_size) throw InputError(path + ": " + mask.error().why);
   throw InputError(fmt::format("{}: expected a mask of {}x{} pixels as the images, found {}x{}",
@@ -61,6 +62,13 @@ GrayImage ReadMask(const std::string& path, const Camera& camera) {
                                size.height,
                                mask.error().other_size->width,
                                mask.error().other_size->height));
+}
+
+// Returns the share of the pixels of a mask that are not used.
+double MaskedShare(const GrayImage& mask) {
+  const std::int64_t pixels = std::int64_t{mask.width()} * mask.height();
+  const auto black = std::count(mask.data(), mask.data() + pixels, std::uint8_t{0});
+  return static_cast<double>(black) / static_cast<double>(pixels);
 }
 
 class PreparedDataset : public Dataset {
@@ -150,17 +158,31 @@ FramePreparation::FramePreparation(const Calibration& calibration,
                                  cameras == 1 ? "" : "s",
                                  options.masks.size()));
   }
-  const auto mask = [&](std::size_t camera, const Camera& of) {
-    const bool given = options.masks.size() > camera && !options.masks[camera].empty();
-    return given ? PreparedMask(ReadMask(options.masks[camera], of)) : nullptr;
-  };
-  left_mask_ = mask(0, calibration.left);
-  if (calibration.right) right_mask_ = mask(1, *calibration.right);
+  if (!options.masks.empty()) left_mask_ = ReadMaskOf(calibration.left, options.masks[0]);
+  if (options.masks.size() > 1) right_mask_ = ReadMaskOf(*calibration.right, options.masks[1]);
   calibration_ = Turned(calibration, turn);
   if (options.view_angle_deg) calibration_.view_angle_deg = options.view_angle_deg;
   if (reduced_ == turned_) return;
   calibration_.left = Reduced(calibration_.left, reduced_);
   if (calibration_.right) calibration_.right = Reduced(*calibration_.right, reduced_);
+}
+
+FramePreparation::Mask FramePreparation::ReadMaskOf(const Camera& camera, const std::string& path) {
+  if (path.empty()) return nullptr;
+  const GrayImage mask = MaskOfCamera(path, camera);
+  const double share = MaskedShare(mask);
+  if (share == 1) {
+    throw InputError(path +
+                     ": expected a mask with pixels that are used, which are not black, "
+                     "found none");
+  }
+  mask_notes_.push_back(fmt::format("the mask {} leaves out {:.3g} % of the image{}",
+                                    path,
+                                    100 * share,
+                                    share > 0.5  ? "; is it inverted? What is black is not used"
+                                    : share == 0 ? ": nothing in it is black"
+                                                 : ""));
+  return PreparedMask(mask);
 }
 
 std::optional<std::string> FramePreparation::ReductionNote() const {
@@ -248,6 +270,8 @@ DatasetInfo Prepared(DatasetInfo info, const FramePreparation& preparation, cons
     info.calibration = preparation.calibration();
     if (auto note = preparation.ReductionNote()) info.notes.push_back(*std::move(note));
   }
+  const std::vector<std::string>& of_masks = preparation.MaskNotes();
+  info.notes.insert(info.notes.end(), of_masks.begin(), of_masks.end());
   if (!info.ground_truth || info.ground_truth->frame != GroundTruth::Frame::kCamera) return info;
   if (turn.orientation.IsIdentity() || turn.orientation.Mirrors()) return info;
   const Rigid3 stored_from_turned = Inverse(TurnedFromStored(turn.orientation));

@@ -43,8 +43,8 @@ PreparationOptions PreparationOf(const Options& options) {
 class FramePreparation {
  public:
   // `calibration` is that of the images as stored. Throws InputError for the rotation of a stereo
-  // pair, since its cameras would not lie side by side, and for masks that cannot be read or have
-  // another size.
+  // pair, since its cameras would not lie side by side, and for masks that cannot be read, have
+  // another size or leave nothing.
   FramePreparation(const Calibration& calibration,
                    const Orientation& turn,
                    const PreparationOptions& options);
@@ -57,6 +57,8 @@ class FramePreparation {
   const Calibration& calibration() const { return calibration_; }
   // Returns a sentence about the reduction of images; nullopt if they are not reduced.
   std::optional<std::string> ReductionNote() const;
+  // Returns a sentence for each mask of all frames: what share of the image it leaves out.
+  const std::vector<std::string>& MaskNotes() const { return mask_notes_; }
 
   // Returns an image as used: reduced by area means. An image whose size differs from the
   // calibration is only rotated.
@@ -67,6 +69,8 @@ class FramePreparation {
 
  private:
   using Mask = std::shared_ptr<const GrayImage>;
+  // Reads a mask of all frames; null for an empty name.
+  Mask ReadMaskOf(const Camera& camera, const std::string& path);
   // A mask of the images as used: of a pixel that is a mean, all of it must be used.
   Mask PreparedMask(const GrayImage& mask) const;
   // The mask of a frame with that of all frames, of which either may be null.
@@ -76,6 +80,7 @@ class FramePreparation {
   ImageSize turned_, reduced_;
   bool view_angle_ = false;
   Mask left_mask_, right_mask_;  // of all frames, as used
+  std::vector<std::string> mask_notes_;
   Calibration calibration_;
 };
 

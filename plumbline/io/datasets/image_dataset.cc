@@ -52,17 +52,8 @@ class ImageDataset : public Dataset {
       if (!depth) return FailureOf(depth.error(), size);
       frame.depth = *depth;
     }
-    const auto read_mask = [&](const std::optional<fs::path>& file,
-                               ImageSize of,
-                               std::shared_ptr<const GrayImage>& mask) {
-      if (!file) return std::optional<ImageFailure>();
-      auto read = ReadGrayImage(*file, wanted(of));
-      if (!read) return std::optional(FailureOf(read.error(), of));
-      mask = std::make_shared<const GrayImage>(*std::move(read));
-      return std::optional<ImageFailure>();
-    };
-    if (auto failure = read_mask(files.left_mask, size, frame.left_mask)) return *failure;
-    if (auto failure = read_mask(files.right_mask, right_size, frame.right_mask)) return *failure;
+    frame.left_mask = MaskIn(files.left_mask, frame.left);
+    if (frame.right) frame.right_mask = MaskIn(files.right_mask, *frame.right);
     return frame;
   }
 
@@ -75,8 +66,24 @@ class ImageDataset : public Dataset {
   }
 
  private:
+  // The mask in a file; null without one, and if it cannot be decoded or has another size than its
+  // image: what is optional costs no frame.
+  static std::shared_ptr<const GrayImage> MaskIn(const std::optional<fs::path>& file,
+                                                 const GrayImage& image) {
+    if (!file) return nullptr;
+    auto read = ReadMask(*file, ImageSize{image.width(), image.height()});
+    return read ? std::make_shared<const GrayImage>(*std::move(read)) : nullptr;
+  }
+
   std::vector<FrameFiles> files_;
 };
+
+// Returns the size of the images of a camera of a data set; nullopt if it is not known.
+std::optional<ImageSize> SizeOfCamera(const DatasetInfo& info, bool right) {
+  if (!info.has_calibration || (right && !info.calibration.right)) return std::nullopt;
+  const Camera& camera = right ? *info.calibration.right : info.calibration.left;
+  return ImageSize{camera.width(), camera.height()};
+}
 
 std::string_view DigitRun(std::string_view text) {
   const auto end = std::find_if_not(
@@ -175,6 +182,8 @@ std::optional<fs::path> MaskFolder(const fs::path& dataset, const char* name) {
 }
 
 // Finds the masks of the frames of one camera, and notes how many there are.
+//
+// A file that cannot be used costs its mask, not the frame: a note says which one, and why.
 void FindMasks(const char* name,
                std::optional<fs::path> FrameFiles::*mask,
                const std::function<const fs::path*(const FrameFiles&)>& image_of,
@@ -182,14 +191,32 @@ void FindMasks(const char* name,
                DatasetInfo& info) {
   const std::optional<fs::path> folder = MaskFolder(info.path, name);
   if (!folder) return;
-  std::size_t found = 0;
+  const std::optional<ImageSize> wanted = SizeOfCamera(info, mask == &FrameFiles::right_mask);
+  std::size_t found = 0, bad = 0;
+  std::string first_fault;
   for (FrameFiles& frame : files) {
     const fs::path* image = image_of(frame);
     if (image == nullptr) return;
     const fs::path file = *folder / (image->stem().string() + ".png");
     if (!PathExists(file)) continue;
-    frame.*mask = file;
-    ++found;
+    const Expected<ImageSize, ImageFailure> size = ReadImageSize(file);
+    if (size && (!wanted || *size == *wanted)) {
+      frame.*mask = file;
+      ++found;
+    } else if (bad++ == 0) {
+      first_fault = size ? fmt::format("expected a mask of {}x{} pixels as the images, found {}x{}",
+                                       wanted->width,
+                                       wanted->height,
+                                       size->width,
+                                       size->height)
+                         : size.error().why;
+      first_fault = fmt::format("{}: {}", file.string(), first_fault);
+    }
+  }
+  if (bad > 0) {
+    info.notes.push_back(fmt::format("{}; {} cannot be used, and the images are used whole",
+                                     first_fault,
+                                     bad == 1 ? "this mask" : fmt::format("{} masks", bad)));
   }
   info.notes.push_back(
       fmt::format("{} of {} images have a mask in {}", found, files.size(), folder->string()));

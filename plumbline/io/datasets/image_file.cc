@@ -259,6 +259,32 @@ Expected<ColorImage, ImageFailure> ReadColorImage(const std::filesystem::path& p
   return DecodeColorImage(path, *bytes, wanted);
 }
 
+Expected<GrayImage, ImageFailure> DecodeMask(const std::filesystem::path& name,
+                                             std::span<const std::uint8_t> bytes,
+                                             std::optional<ImageSize> wanted) {
+  constexpr int kAsStored =
+      cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION;
+  const Expected<cv::Mat, ImageFailure> mat = DecodeMat(name, bytes, kAsStored, wanted);
+  if (!mat) return mat.error();
+  const std::size_t size = mat->elemSize();
+  GrayImage mask(mat->cols, mat->rows);
+  for (int y = 0; y < mat->rows; ++y) {
+    const std::uint8_t* pixel = mat->ptr<std::uint8_t>(y);
+    for (int x = 0; x < mat->cols; ++x, pixel += size) {
+      const bool used = std::any_of(pixel, pixel + size, [](auto byte) { return byte != 0; });
+      mask.at(x, y) = used ? 255 : 0;
+    }
+  }
+  return mask;
+}
+
+Expected<GrayImage, ImageFailure> ReadMask(const std::filesystem::path& path,
+                                           std::optional<ImageSize> wanted) {
+  const auto bytes = ReadBytes(path);
+  if (!bytes) return bytes.error();
+  return DecodeMask(path, *bytes, wanted);
+}
+
 std::optional<int> BrightestOf16Bits(const std::filesystem::path& path) {
   constexpr std::size_t kHeader = 4096;  // with comments of a PGM file, as a rule
   if (!IsGreyOf16Bits(FirstBytes(path, kHeader))) return std::nullopt;

@@ -65,6 +65,15 @@ Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& pat
 Expected<ColorImage, ImageFailure> ReadColorImage(const std::filesystem::path& path,
                                                   std::optional<ImageSize> wanted = std::nullopt);
 
+// Decodes a mask: 255 where any channel of a pixel has any bit set, at whatever depth, 0 where all
+// are zero; transparency does not count. Everything else is as in ReadGrayImage.
+Expected<GrayImage, ImageFailure> ReadMask(const std::filesystem::path& path,
+                                           std::optional<ImageSize> wanted = std::nullopt);
+// The same for the bytes of a file; `name` is for failures.
+Expected<GrayImage, ImageFailure> DecodeMask(const std::filesystem::path& name,
+                                             std::span<const std::uint8_t> bytes,
+                                             std::optional<ImageSize> wanted = std::nullopt);
+
 // Returns the brightest level of a PNG or PGM file with one channel of 16 bits; nullopt for any
 // other file, and if it cannot be decoded.
 std::optional<int> BrightestOf16Bits(const std::filesystem::path& path);

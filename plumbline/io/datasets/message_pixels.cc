@@ -54,6 +54,23 @@ Expected<GrayImage, ImageFailure> GrayOfMessage(const std::filesystem::path& nam
   return GrayOfPixels(name, PixelsOf(image), wanted, bits);
 }
 
+Expected<GrayImage, ImageFailure> MaskOfMessage(const std::filesystem::path& name,
+                                                const ImageMessage& image,
+                                                std::optional<ImageSize> wanted) {
+  constexpr int kLowestBits = 8;  // of 16: a level of 1 is not rounded to 0
+  if (image.compressed) return DecodeMask(name, image.data, wanted);
+  const auto color = ColorOfPixels(name, PixelsOf(image), wanted, kLowestBits);
+  if (!color) return color.error();
+  GrayImage mask(color->width(), color->height());
+  for (int y = 0; y < mask.height(); ++y) {
+    for (int x = 0; x < mask.width(); ++x) {
+      const Color pixel = color->at(x, y);
+      mask.at(x, y) = (pixel.r | pixel.g | pixel.b) != 0 ? 255 : 0;
+    }
+  }
+  return mask;
+}
+
 Expected<DepthImage, ImageFailure> DepthOfMessage(const std::filesystem::path& name,
                                                   const ImageMessage& image,
                                                   double factor,

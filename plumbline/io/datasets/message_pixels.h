@@ -25,6 +25,11 @@ Expected<GrayImage, ImageFailure> GrayOfMessage(const std::filesystem::path& nam
                                                 std::optional<ImageSize> wanted,
                                                 std::optional<int> bits = std::nullopt);
 
+// Decodes the mask of a message as DecodeMask: 0 where all channels are, 255 elsewhere.
+Expected<GrayImage, ImageFailure> MaskOfMessage(const std::filesystem::path& name,
+                                                const ImageMessage& image,
+                                                std::optional<ImageSize> wanted);
+
 // Decodes the depth of a message to metres: 16 bits as value / factor, 32FC1 as it is, and both
 // packed by image_transport's compressedDepth. Failures are those of DecodeDepthImage and
 // DepthOfPixels.

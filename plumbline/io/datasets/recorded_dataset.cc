@@ -16,6 +16,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <sstream>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -49,8 +51,7 @@ class RecordedDataset : public Dataset {
 
   Expected<SensorFrame, ImageFailure> Read(std::size_t i) const override {
     const FrameMessages& messages = frames_.at(i);
-    const Camera& left_camera = calibration().left;
-    const ImageSize size = SizeOf(left_camera);
+    const ImageSize size = SizeOf(calibration().left);
     SensorFrame frame;
     frame.stamp_ns = stamp_ns(i);
     const auto left = Gray(messages.left, size);
@@ -67,20 +68,8 @@ class RecordedDataset : public Dataset {
       if (!depth) return FailureOf(depth.error(), size);
       frame.depth = *depth;
     }
-    const auto read_mask = [&](const std::optional<StoredMessage>& place,
-                               const Camera& camera,
-                               std::shared_ptr<const GrayImage>& mask) {
-      if (!place) return std::optional<ImageFailure>();
-      auto read = Gray(*place, SizeOf(camera));
-      if (!read) return std::optional(FailureOf(read.error(), SizeOf(camera)));
-      mask = std::make_shared<const GrayImage>(*std::move(read));
-      return std::optional<ImageFailure>();
-    };
-    const Camera& right_camera = calibration().right.value_or(left_camera);
-    if (auto failure = read_mask(messages.left_mask, left_camera, frame.left_mask)) return *failure;
-    if (auto failure = read_mask(messages.right_mask, right_camera, frame.right_mask)) {
-      return *failure;
-    }
+    frame.left_mask = Mask(messages.left_mask, frame.left);
+    if (frame.right) frame.right_mask = Mask(messages.right_mask, *frame.right);
     return frame;
   }
 
@@ -123,6 +112,18 @@ class RecordedDataset : public Dataset {
     return ReadImage<GrayImage>(place, [&](const ImageMessage& image) {
       return GrayOfMessage(info().path, image, Wanted(size), bits_);
     });
+  }
+
+  // The mask of an image; null without one, and if it cannot be decoded or has another size than
+  // the image: what is optional costs no frame.
+  std::shared_ptr<const GrayImage> Mask(const std::optional<StoredMessage>& place,
+                                        const GrayImage& image) const {
+    if (!place) return nullptr;
+    const ImageSize size{image.width(), image.height()};
+    auto mask = ReadImage<GrayImage>(*place, [&](const ImageMessage& message) {
+      return MaskOfMessage(info().path, message, size);
+    });
+    return mask ? std::make_shared<const GrayImage>(*std::move(mask)) : nullptr;
   }
 
   Expected<DepthImage, ImageFailure> Depth(const StoredMessage& place, ImageSize size) const {
@@ -185,7 +186,7 @@ std::vector<std::optional<RecordedTopic>> TakeMaskTopics(const std::vector<std::
   for (std::size_t i = 0; i < masks.size(); ++i) {
     const auto found =
         std::find_if(topics.images.begin(), topics.images.end(), [&](const RecordedTopic& topic) {
-          return topic.name == masks[i];
+          return topic.name == masks[i] || topic.name == masks[i] + "/compressed";
         });
     if (found != topics.images.end()) {
       taken[i] = std::move(*found);
@@ -201,6 +202,27 @@ std::vector<std::optional<RecordedTopic>> TakeMaskTopics(const std::vector<std::
     }
   }
   return taken;
+}
+
+// True for a topic whose name has a part that says mask: "/people/mask", "/mask0/compressed".
+bool NameSaysMask(const std::string& name) {
+  std::istringstream parts(name);
+  for (std::string part; std::getline(parts, part, '/');) {
+    if (part == "mask" || part == "masks" || part == "mask0" || part == "mask1") return true;
+  }
+  return false;
+}
+
+// Leaves out the other topics of masks, unless they are named as topics or there is nothing else.
+void LeaveOutMasks(const DatasetOptions& options, RecordedTopics& topics) {
+  const auto is_mask = [](const RecordedTopic& topic) { return NameSaysMask(topic.name); };
+  if (!options.topics.empty() || std::ranges::all_of(topics.images, is_mask)) return;
+  for (const RecordedTopic& topic : topics.images) {
+    if (!is_mask(topic)) continue;
+    topics.notes.push_back(
+        fmt::format("{} has masks by its name, which --mask uses", Printable(topic.name)));
+  }
+  std::erase_if(topics.images, is_mask);
 }
 
 // Gives frames the masks of their moment, and notes how many have one.
@@ -373,6 +395,7 @@ std::unique_ptr<Dataset> OpenRecording(const fs::path& path,
                                        const DatasetOptions& options) {
   RecordedTopics topics = ReadTopics(path, format);
   const std::vector<std::optional<RecordedTopic>> masks = TakeMaskTopics(options.masks, topics);
+  LeaveOutMasks(options, topics);
   const ChosenTopics chosen = ChooseTopics(topics, options.topics, options.sensor);
   DatasetInfo info = DescribeDataset(path, format, Available(chosen), options);
   info.notes = topics.notes;

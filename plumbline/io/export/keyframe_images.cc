@@ -12,6 +12,7 @@
 #include "plumbline/io/datasets/frame_preparation.h"
 #include "plumbline/io/datasets/ground_truth.h"
 #include "plumbline/io/datasets/open_dataset.h"
+#include "plumbline/io/map_file/map_view_angle.h"
 #include "plumbline/io/trajectory_io.h"
 
 #include <algorithm>
@@ -148,7 +149,15 @@ KeyFrameImages::KeyFrameImages(const std::filesystem::path& path,
     as_sensor.sensor = sensor;
     if (sensor != dataset_->sensor()) dataset_ = OpenDataset(path, as_sensor);
     rectifier_ = std::make_unique<Rectifier>(dataset_->calibration());
-    const auto difference_now = LeftCameraDifference(*rectifier_, saved);
+    auto difference_now = LeftCameraDifference(*rectifier_, saved);
+    if (difference_now && !given.view_angle_deg) {
+      as_sensor.view_angle_deg = ViewAngleOfMap(saved.camera, dataset_->calibration());
+      if (as_sensor.view_angle_deg) {
+        dataset_ = OpenDataset(path, as_sensor);
+        rectifier_ = std::make_unique<Rectifier>(dataset_->calibration());
+        difference_now = LeftCameraDifference(*rectifier_, saved);
+      }
+    }
     if (!difference_now) {
       difference.reset();
       break;

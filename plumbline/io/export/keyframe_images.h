@@ -41,7 +41,8 @@ std::map<KeyFrameId, std::string> KeyFrameImageNames(const Map& map);
 class KeyFrameImages {
  public:
   // Opens the data. `options` without a sensor: the sensor whose images fit the map; without a
-  // maximum width: that of the map's camera, so that images are reduced as in the run. Throws
+  // maximum width: that of the map's camera, so that images are reduced as in the run; without a
+  // view angle: that of the map (ViewAngleOfMap). Throws
   // InputError if the data's camera is not that of the map, or the data has no frame at the time of
   // a keyframe.
   KeyFrameImages(const std::filesystem::path& path,
