@@ -3,6 +3,7 @@
 #include "apps/map_summary.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/geometry/measured_depth.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/map/reprojection.h"
 
@@ -117,7 +118,7 @@ Json MapJson(const RectifiedCamera& camera, const Map& map) {
 std::string MapRows(const RectifiedCamera& camera, const Map& map) {
   constexpr double kNanoseconds = 1e9;
   const MapSummary summary = Summarize(camera, map);
-  const char* unit = camera.baseline > 0 ? "m" : "units";
+  const char* unit = KnowsUnitOfLength(camera) ? "m" : "units";
   std::string text = Row("keyframes", std::to_string(summary.keyframes));
   if (summary.time_ns) {
     const auto [first, last] = *summary.time_ns;
@@ -233,10 +234,10 @@ std::string MapInfoTable(const std::filesystem::path& path, const SavedAtlas& sa
                           c.fy,
                           c.cx,
                           c.cy));
-  text +=
-      Row("baseline",
-          c.baseline > 0 ? fmt::format("{:.4f} m", c.baseline)
-                         : std::string("none: a single camera; lengths are in the map's own unit"));
+  text += Row("baseline",
+              MeasuresDepth(c)
+                  ? fmt::format("{:.4f} m", c.baseline)
+                  : std::string("none: a single camera; lengths are in the map's own unit"));
   const std::vector<const Map*> maps = MapsOf(saved.atlas);
   if (maps.empty()) return text + Row("maps", "0");
   std::string numbers = fmt::format("number {}", maps.front()->id().value);
@@ -261,7 +262,7 @@ std::string MapInfoJson(const std::filesystem::path& path, const SavedAtlas& sav
                  {"cy", c.cy},
                  {"baseline", c.baseline},
                  {"rectified_from_left_xyzw", {q.x(), q.y(), q.z(), q.w()}}}},
-               {"unit", c.baseline > 0 ? "m" : "of the map"},
+               {"unit", KnowsUnitOfLength(c) ? "m" : "of the map"},
                {"maps", Json::array()}};
   for (const Map* map : MapsOf(saved.atlas)) json["maps"].push_back(MapJson(c, *map));
   if (memory) {

@@ -3,6 +3,7 @@
 #include "apps/merge_atlases.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/geometry/measured_depth.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/map/combined_atlases.h"
@@ -76,7 +77,7 @@ void CheckWithinReach(const Similarity3& transform) {
 void JoinAsTold(const Similarity3& transform, MapId second, MergedAtlases& merged) {
   Atlas& atlas = merged.saved.atlas;
   CheckWithinReach(transform);
-  if (merged.saved.context.camera.baseline > 0 && transform.scale != 1) {
+  if (KnowsUnitOfLength(merged.saved.context.camera) && transform.scale != 1) {
     throw InputError(fmt::format(
         "transform: expected a motion of the scale 1, found the scale {:g} for maps of measured "
         "depth, whose scale is 1",

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/units.h"
 #include "plumbline/geometry/covariance.h"
+#include "plumbline/geometry/measured_depth.h"
 #include "plumbline/loop_closing/loop_edge.h"
 #include "plumbline/loop_closing/pairwise_consistency.h"
 
@@ -134,7 +135,7 @@ std::optional<LoopClosure> LoopCloser::Try(const Map& map,
   attempts_.clear();
   if (map.Find(newest) == nullptr) return std::nullopt;
   if (IsPausing(map, newest)) return std::nullopt;
-  Drifts drifts(map, imaging_.camera.baseline == 0, options_, covisible_);
+  Drifts drifts(map, !KnowsUnitOfLength(imaging_.camera), options_, covisible_);
   std::vector<KeyFrameId> elsewhere;
   for (const KeyFrameId candidate : WorthTrying(map, newest, candidates)) {
     if (IsBesideAny(map, candidate, elsewhere)) continue;

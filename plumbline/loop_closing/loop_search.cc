@@ -5,6 +5,7 @@
 #include "plumbline/base/ids.h"
 #include "plumbline/features/match_lines.h"
 #include "plumbline/features/match_points.h"
+#include "plumbline/geometry/measured_depth.h"
 #include "plumbline/matching/measurements.h"
 
 #include <algorithm>
@@ -160,7 +161,7 @@ LoopMatches LoopSearch::MatchDescriptors(const LoopVerificationOptions& options)
   const Frame& b = candidate_.keyframe->frame;
   LoopMatches matches;
   matches.problem.camera = imaging_.camera;
-  matches.problem.free_scale = imaging_.camera.baseline == 0;
+  matches.problem.free_scale = !KnowsUnitOfLength(imaging_.camera);
   const auto points_a = WithLandmarks(a.features().points, a.points, common_points_);
   const auto points_b = WithLandmarks(b.features().points, b.points, common_points_);
   PointMatchOptions point_options;
@@ -242,7 +243,7 @@ MutualSearch LoopSearch::SearchBoth(const Similarity3& candidate_from_query, dou
   const ProjectionSearchOptions options = SearchOptions(radius_px);
   MutualSearch search;
   search.matches.problem.camera = imaging_.camera;
-  search.matches.problem.free_scale = imaging_.camera.baseline == 0;
+  search.matches.problem.free_scale = !KnowsUnitOfLength(imaging_.camera);
   search.in_candidate = SearchImage(imaging_,
                                     query_,
                                     CameraAmong(query.cam_from_world, candidate_from_query),

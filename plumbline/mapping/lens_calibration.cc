@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/lens_calibration.h"
 
+#include "plumbline/geometry/measured_depth.h"
 #include "plumbline/optimization/bundle_adjustment.h"
 
 #include <array>
@@ -149,7 +150,7 @@ RadialCalibration CalibrateRadialDistortion(const BaProblem& problem,
   constexpr double kSurely = 4;                        // deviations that exclude a correction
   // A smaller change of the known correction, relative to the width, is not worth an adjustment.
   constexpr double kLeastChange = 2e-4;
-  if (problem.camera.baseline > 0 || problem.point_observations.empty()) return {};
+  if (MeasuresDepth(problem.camera) || problem.point_observations.empty()) return {};
   const double width = problem.camera.width;
   const double sigma = kPriorSigma * width;
   const double step = kStep * width;

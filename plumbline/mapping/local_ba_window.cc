@@ -3,6 +3,7 @@
 #include "plumbline/mapping/local_ba_window.h"
 
 #include "plumbline/base/elementary.h"
+#include "plumbline/geometry/measured_depth.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/map_problem.h"
 #include "plumbline/mapping/parallel_lines.h"
@@ -108,7 +109,7 @@ class WindowBuilder {
   // is arbitrary and fixed by FixScaleToOldestKeyFrame.
   void HoldGauge() {
     auto& poses = window_.problem.poses;
-    const bool depth = window_.problem.camera.baseline > 0;
+    const bool depth = MeasuresDepth(window_.problem.camera);
     const bool whole_map = poses.size() == map_.keyframes().size();
     const std::ptrdiff_t needed = depth || whole_map ? 1 : 2;
     auto fixed = std::count_if(poses.begin(), poses.end(), [](const auto& p) { return p.fixed; });

@@ -3,6 +3,7 @@
 #include "plumbline/mapping/map_problem.h"
 
 #include "plumbline/base/statistics.h"
+#include "plumbline/geometry/measured_depth.h"
 #include "plumbline/geometry/plucker.h"
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/matching/measurements.h"
@@ -174,7 +175,7 @@ std::map<KeyFrameId, Rigid3> PosesByKeyFrame(const MapProblem& part, const BaRes
 
 std::vector<double> ScalesOf(const BaProblem& problem, const BaResult& result) {
   std::vector<double> scales(problem.poses.size(), 1);
-  if (problem.camera.baseline > 0) return scales;
+  if (KnowsUnitOfLength(problem.camera)) return scales;
   std::vector<std::vector<std::pair<double, double>>> depths(problem.poses.size());
   for (const auto& o : problem.point_observations) {
     const auto pose = static_cast<std::size_t>(o.pose);
@@ -192,7 +193,7 @@ std::vector<double> ScalesOf(const BaProblem& problem, const BaResult& result) {
 }
 
 void FixScaleToOldestKeyFrame(const BaProblem& problem, BaResult& result) {
-  if (problem.poses.empty() || problem.camera.baseline > 0) return;
+  if (problem.poses.empty() || KnowsUnitOfLength(problem.camera)) return;
   const auto fixed = std::count_if(
       problem.poses.begin(), problem.poses.end(), [](const auto& pose) { return pose.fixed; });
   if (fixed > 1) return;
@@ -201,7 +202,7 @@ void FixScaleToOldestKeyFrame(const BaProblem& problem, BaResult& result) {
 }
 
 void KeepPlaceOf(std::size_t pose, const BaProblem& problem, BaResult& result) {
-  if (problem.camera.baseline > 0) return;
+  if (KnowsUnitOfLength(problem.camera)) return;
   const double scale = 1 / ScalesOf(problem, result)[pose];
   Move(Inverse(problem.poses[pose].cam_from_world) * result.poses[pose], result);
   ScaleAbout(Inverse(result.poses[pose]).translation, scale, result);

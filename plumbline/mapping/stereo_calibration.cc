@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/stereo_calibration.h"
 
+#include "plumbline/geometry/measured_depth.h"
 #include "plumbline/geometry/symmetric_matrix.h"
 #include "plumbline/geometry/triangulation.h"
 
@@ -90,7 +91,7 @@ std::vector<PointView> LeftViews(const Map& map, const MapPoint& point) {
 StereoCalibrator::StereoCalibrator(const RectifiedCamera& camera) : camera_(camera) {}
 
 void StereoCalibrator::Observe(const Map& map, const KeyFrame& keyframe) {
-  if (camera_.baseline == 0) return;
+  if (!MeasuresDepth(camera_)) return;
   constexpr double kMinParallax = 0.002;
   const double max_sigma_px = kMaxPredictionSigma * camera_.width;
   const StereoCorrection current = Estimate();

@@ -3,6 +3,7 @@
 #include "plumbline/slam/front_end.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/geometry/measured_depth.h"
 #include "plumbline/slam/load_control.h"
 
 #include <algorithm>
@@ -85,7 +86,7 @@ ExtractedFrame FrontEnd::Extract(SensorFrame frame, StageClock clock, LoadLevel 
                                       helper_.get(),
                                       &pyramid);
   extracted.indexed = IndexFeatures(camera, std::move(features));
-  if (camera.baseline == 0) {
+  if (!MeasuresDepth(camera)) {
     extracted.left_pyramid = std::make_shared<const ImagePyramid>(std::move(pyramid));
   }
   clock.Done("features");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/map_merge.h"
 
+#include "plumbline/geometry/measured_depth.h"
 #include "plumbline/loop_closing/close_loop.h"
 #include "plumbline/loop_closing/essential_graph.h"
 #include "plumbline/loop_closing/pairwise_consistency.h"
@@ -189,7 +190,7 @@ Expected<MergedMaps, MergeRefusal> MergeMaps(const Atlas& atlas,
                                              const SystemMethods& methods) {
   PLUMBLINE_CHECK(atlas.Find(first) != nullptr && atlas.Find(second) != nullptr && first < second,
                   "maps to be merged, the older one first");
-  const bool free_scale = imaging.camera.baseline == 0;
+  const bool free_scale = !KnowsUnitOfLength(imaging.camera);
   const Map& of_first = *atlas.Find(first);
   const Map& of_second = *atlas.Find(second);
   const auto overlap = Judged(atlas,

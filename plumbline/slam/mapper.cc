@@ -3,6 +3,7 @@
 #include "plumbline/slam/mapper.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/geometry/measured_depth.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/whole_map_adjustment.h"
 #include "plumbline/slam/atlas_places.h"
@@ -142,7 +143,7 @@ void Mapper::Recognize(KeyFrameId id, std::int64_t frame, std::vector<MappingSte
 void Mapper::CalibrateRadialDistortion(KeyFrameId newest, std::int64_t frame) {
   constexpr std::int64_t kFirst = 16, kLast = 256;
   const Map& map = atlas_.active();
-  if (camera_.baseline > 0 || !options_.lens_calibration || !MayCalibrateRadialDistortion(map))
+  if (MeasuresDepth(camera_) || !options_.lens_calibration || !MayCalibrateRadialDistortion(map))
     return;
   std::int64_t& asked = lens_asked_.try_emplace(map.id(), kFirst / 2).first->second;
   const std::int64_t taken_in = map.NumberOf(newest) + 1;

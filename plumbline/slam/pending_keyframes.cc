@@ -3,6 +3,7 @@
 #include "plumbline/slam/pending_keyframes.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/geometry/measured_depth.h"
 #include "plumbline/mapping/landmark_creation.h"
 
 #include <algorithm>
@@ -184,7 +185,7 @@ KeyFrame SettledIn(const Map& map, const NewKeyFrame& added) {
 int NewMeasurements(const NewKeyFrame& added, const RectifiedCamera& camera) {
   const Frame& frame = added.keyframe.frame;
   const Features& features = frame.features();
-  const bool need_depth = camera.baseline > 0;
+  const bool need_depth = MeasuresDepth(camera);
   return CountNew(features.points, frame.points, features.point_disparity, need_depth) +
          CountNew(features.lines, frame.lines, features.line_right, need_depth);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/place_recognition.h"
 
+#include "plumbline/geometry/measured_depth.h"
 #include "plumbline/loop_closing/close_loop.h"
 #include "plumbline/loop_closing/scale_conflict.h"
 #include "plumbline/loop_closing/verify_loop.h"
@@ -103,7 +104,7 @@ bool PlaceRecognition::Withdraws(const Atlas& atlas, KeyFrameId id) {
   constexpr std::int64_t kApart = 5;
   const Map& map = atlas.active();
   const KeyFrame& keyframe = *map.Find(id);
-  const bool looks = options_.enabled && imaging_.camera.baseline == 0 &&
+  const bool looks = options_.enabled && !KnowsUnitOfLength(imaging_.camera) &&
                      keyframe.number < kYoungKeyFrames && !IsWithdrawn(map.id());
   if (!looks) return false;
   const auto allowed = [&](KeyFrameId other) {

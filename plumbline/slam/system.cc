@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/covariance.h"
+#include "plumbline/geometry/measured_depth.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/slam/atlas_context.h"
 #include "plumbline/slam/saved_options.h"
@@ -32,8 +33,8 @@ Vector6d LastVelocity(const InitialMap& initial) {
 
 // Throws InputError unless a loaded map is of this camera.
 void CheckSameCamera(const RectifiedCamera& of_map, const RectifiedCamera& now) {
-  const bool single = now.baseline == 0;
-  if ((of_map.baseline == 0) != single) {
+  const bool single = !MeasuresDepth(now);
+  if (MeasuresDepth(of_map) == single) {
     const char* one = "one camera";
     const char* metric = "a stereo pair or depth";
     throw InputError(
@@ -67,7 +68,7 @@ System::System(const Calibration& calibration,
       tracker_(stages_->tracker),
       monocular_initialization_(stages_->monocular_initialization) {
   CheckOptions(options_, methods);
-  if (imaging_.camera.baseline == 0) {
+  if (!MeasuresDepth(imaging_.camera)) {
     if (options_.tracking.reference == TrackingReference::kLastFrame) {
       throw InputError(
           "tracking.reference: last_frame needs a camera that measures depth (stereo or RGB-D); "

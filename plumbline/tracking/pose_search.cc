@@ -4,6 +4,7 @@
 
 #include "plumbline/features/match_lines.h"
 #include "plumbline/features/match_points.h"
+#include "plumbline/geometry/measured_depth.h"
 #include "plumbline/matching/landmark_from_frame.h"
 #include "plumbline/matching/line_matching.h"
 #include "plumbline/solvers/absolute_pose.h"
@@ -152,7 +153,7 @@ std::optional<PoseEstimate> PoseSearch::FromPrediction(const Frame& frame,
         how.depths == Depths::kGuessed || (best && best->Inliers() >= options_.enough_inliers);
     if (best && best->sigma.AtMost(limit) && many) break;
     // One camera measures no depths.
-    if (how.depths == Depths::kUncertain && imaging_.camera.baseline == 0) continue;
+    if (how.depths == Depths::kUncertain && !MeasuresDepth(imaging_.camera)) continue;
     LandmarkMatches found;
     const auto estimate = SearchLast(frame, predicted, last, snapshot, how, found);
     if (!estimate || (best && estimate->Inliers() <= best->Inliers())) continue;

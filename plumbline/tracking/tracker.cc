@@ -3,6 +3,7 @@
 #include "plumbline/tracking/tracker.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/geometry/measured_depth.h"
 #include "plumbline/tracking/keyframe_decision.h"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ Tracker::Tracker(const CameraAndPyramid& imaging,
                  const LossPatience& loss)
     : options_(options),
       search_(imaging, options, estimator),
-      monocular_(imaging.camera.baseline == 0),
+      monocular_(!MeasuresDepth(imaging.camera)),
       first_cam_from_world_(Inverse(world_from_first_cam)),
       loss_(loss) {}
 
