@@ -18,7 +18,7 @@ std::vector<RunInput> CommandInputs(const CommandLine& line, const Dataset& data
   const auto add = [&](const std::filesystem::path& path) {
     if (std::filesystem::is_regular_file(path, error)) inputs.push_back({path});
   };
-  for (const char* option : {"--camera", "--poses", "--config", "--mask"}) {
+  for (const char* option : {"--camera", "--imu", "--poses", "--config", "--mask"}) {
     for (const std::string& path : line.Values(option)) add(path);
   }
   if (dataset.info().ground_truth) add(dataset.info().ground_truth->path);

@@ -23,6 +23,7 @@
 #include "apps/command_line.h"
 #include "apps/command_outputs.h"
 #include "apps/commands.h"
+#include "apps/inertial_input.h"
 #include "apps/program_methods.h"
 #include "apps/run_frames.h"
 #include "apps/run_results.h"
@@ -70,6 +71,7 @@ CommandSyntax RunSyntax() {
        {"--side-by-side", "", "live: each image is a left and a right half"},
        {"--camera", "FILE", "camera file, or the name of a built-in camera"},
        {"--preset", "NAME", "the system of a paper: rippl, good-line-cutting"},
+       {"--imu", "FILE|off|auto", "calibration of the inertial sensor (auto: with the data)"},
        {"--ground-truth", "FILE|none", "poses to compare with (default: those with the data)"},
        {"--rotate", "auto|none|90|180|270", kRotateHelp},
        {"--max-width", "PIXELS", kMaxWidthHelp},
@@ -210,7 +212,7 @@ DatasetOptions ReadDatasetOptions(const CommandLine& line) {
 }
 
 RunFrames OpenLive(const CommandLine& line, const RunSetup& setup) {
-  for (const char* option : {"--format", "--topic", "--ground-truth"}) {
+  for (const char* option : {"--format", "--topic", "--imu", "--ground-truth"}) {
     if (line.Has(option)) {
       throw InputError(std::string(option) + ": expected a recording, found a live source");
     }
@@ -430,6 +432,14 @@ void RethrowFailures(const Processed& processed, const std::optional<std::string
   if (!failures.empty()) throw InputError(failures);
 }
 
+// Gives the inertial sensor that --imu asks for to the frames and the system.
+InertialInput UseInertial(const CommandLine& line, RunFrames& input, System& system) {
+  InertialInput inertial = input.live ? InertialInput{} : OpenInertial(line, *input.dataset);
+  input.inertial = inertial.recording;
+  if (input.inertial) system.UseInertial(input.inertial->calibration);
+  return inertial;
+}
+
 }  // namespace
 
 int RunCommand(std::span<const std::string> arguments) {
@@ -447,6 +457,7 @@ int RunCommand(std::span<const std::string> arguments) {
   CheckApart(setup.folder, inputs);
   if (setup.view.record) CheckRecording(*setup.view.record, setup.folder, inputs);
   System system(input.dataset->calibration(), setup.options, {}, ProgramMethods());
+  const InertialInput inertial = UseInertial(line, input, system);
   const LoadedMap loaded = MoveMapInto(system, setup, std::move(map));
   RunFolder folder(setup.folder);
   OpenViewer(line, setup, system.rectifier().camera(), loaded, input);
@@ -455,6 +466,9 @@ int RunCommand(std::span<const std::string> arguments) {
   if (!setup.quiet) SayUnused(line, *input.dataset);
   if (!setup.quiet) SayWithoutEffect(setup, *input.dataset);
   SayBefore(*input.dataset, folder, loaded.notes, setup.quiet);
+  if (!setup.quiet) {
+    for (const std::string& note : inertial.notes) Say(note);
+  }
   CatchStopSignals();
   KeptViews views(input);
   const Processed processed = ProcessFrames(input, setup.quiet, system, folder, views);
@@ -472,7 +486,8 @@ int RunCommand(std::span<const std::string> arguments) {
                              ToBeShown(arguments)};
   description.frames_chosen = input.frames.size();
   description.preset = line.Value("--preset");
-  description.notes = processed.notes;
+  description.notes = inertial.notes;
+  description.notes.insert(description.notes.end(), processed.notes.begin(), processed.notes.end());
   const WrittenResults written = WriteResults(
       {result, dataset, views, std::move(description), processed.first_pose_seconds, start},
       folder);

@@ -10,6 +10,7 @@
 #include "plumbline/slam/pipeline.h"
 #include "plumbline/viewer/viewer.h"
 
+#include "apps/inertial_input.h"
 #include "apps/map_saver.h"
 #include "apps/program_methods.h"
 #include "apps/progress.h"
@@ -97,6 +98,7 @@ class FrameFeed {
     });
     NameShortage();
     TellStillFeatures();
+    TellInertial();
     Keeping([&] { FinishViewing(); });
     return std::move(result_);
   }
@@ -177,6 +179,7 @@ class FrameFeed {
       WaitWhilePaused();
       auto next = frames_->Next(go_on);
       if (!next) return;
+      pipeline_.AddInertial(inertial_.UpTo(next->stamp_ns));
       if (next->frame) {
         CheckPair(position, *next->frame);
         WatchDepth(*next->frame);
@@ -227,6 +230,14 @@ class FrameFeed {
     if (!note) return;
     result_.notes.push_back(*note);
     if (!quiet_) progress_.Say(*note);
+  }
+
+  void TellInertial() {
+    if (input_.inertial == nullptr) return;
+    for (std::string& note : InertialNotes(result_.result, *input_.inertial)) {
+      if (!quiet_) progress_.Say(note);
+      result_.notes.push_back(std::move(note));
+    }
   }
 
   // "12 of 30 frames", or "12 frames" of a live source.
@@ -280,6 +291,7 @@ class FrameFeed {
   Clock::time_point saved_ = Clock::now();
   std::unique_ptr<FrameInput> frames_;
   StereoPairCheck pair_check_;
+  InertialFeed inertial_{input_.inertial.get()};
   Pipeline pipeline_;  // last: its thread calls Observe
 };
 

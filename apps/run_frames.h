@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/inertial/inertial_recording.h"
 #include "plumbline/io/live/live_source.h"
 #include "plumbline/report/run_folder.h"
 #include "plumbline/report/run_journal.h"
@@ -29,7 +30,9 @@ struct RunFrames {
   std::vector<std::size_t> frames;         // by index in the data set
   std::shared_ptr<LiveSource> live;        // replaces a data set; may be null
   FrameSelection range;                    // of the live source's frames
-  int blur = 0;                            // box filter on every image; 0: none
+  // the inertial sensor; null: none
+  std::shared_ptr<const InertialRecording> inertial;
+  int blur = 0;  // box filter on every image; 0: none
   // interval of writing map.plb into the part of the folder; 0: never
   int save_every_s = 0;
   std::shared_ptr<Viewer> viewer;  // displays the run; may be null

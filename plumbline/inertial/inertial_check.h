@@ -45,8 +45,9 @@ struct InertialCheck {
 //
 // Degrees for radians: the direction of the force, mostly gravity, turns against that of the sensor
 // by the integrated rates. Over steps of 0.5 s the rates, read as degrees, must explain it with a
-// quarter of the squared error that they have as radians. g for m/s^2: the median force is 0.7 to
-// 1.3, its quartiles within 30 % of it; else, below 5 m/s^2, gravity was taken off.
+// quarter of the squared error that they have as radians, and some rate must be above 8. g for
+// m/s^2: the median force is 0.7 to 1.3, its quartiles within 30 % of it; else, below 5 m/s^2,
+// gravity was taken off.
 //
 // Cost: O(samples log samples), 0.2 us a sample.
 InertialCheck CheckInertial(const OrderedSamples& ordered, const InertialCalibration& calibration);

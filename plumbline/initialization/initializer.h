@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/inertial/gyroscope.h"
 #include "plumbline/initialization/initial_map.h"
 #include "plumbline/initialization/options.h"
 
@@ -59,11 +60,15 @@ class Initializer {
   // Discards all frames: after a loss, or after a map was started.
   virtual void Reset() = 0;
 
+  // Lets a gyroscope take part in the decision; it must outlive this object.
+  void Use(const Gyroscope& gyroscope) { gyroscope_ = &gyroscope; }
+
   // Counts of all steps so far.
   const InitializationCounts& counts() const { return counts_; }
 
  protected:
   InitializationCounts counts_;
+  const Gyroscope* gyroscope_ = nullptr;  // null if there is none
 };
 
 }  // namespace plumbline

@@ -41,6 +41,8 @@ constexpr double kMinNoise = 0.25;
 constexpr double kLeastNoise = 0.4;
 // A model whose cost is this many times that of the best one before adjustment is not adjusted.
 constexpr double kHopeless = 2;
+// Deviation of the rotation of a model that is worth a comparison with a gyroscope's.
+constexpr double kTurnSigma = 0.3 * kDegree;
 // With at least this many points, lines are not used.
 constexpr std::size_t kManyPoints = 200;
 // The work for each of several models is done by two threads, since a plane gives two models.
@@ -168,6 +170,20 @@ InitializationStatus Decide(const FeatureTracks& tracks,
   return InitializationStatus::kNone;
 }
 
+// Removes models whose rotations the gyroscope excludes (99.9 %), unless it excludes all.
+void DropContradicted(const std::optional<MeasuredTurns>& turns,
+                      std::vector<CandidateModel>& models) {
+  if (!turns) return;
+  constexpr double kDeviations = 3.1;
+  const double mean = 3 * static_cast<double>(turns->of_views.size());
+  const double limit = mean + kDeviations * std::sqrt(2 * mean) + kDeviations * kDeviations;
+  const auto excluded = [&](const CandidateModel& model) {
+    return TurnChi2(*turns, model.reconstruction) > limit;
+  };
+  if (std::all_of(models.begin(), models.end(), excluded)) return;
+  std::erase_if(models, excluded);
+}
+
 // Returns true if lines are used: points alone do not suffice, and there are few of them. Lines do
 // not decide an ambiguity left by many points.
 bool NeedsLines(const FeatureTracks& tracks, InitializationStatus wait) {
@@ -218,10 +234,29 @@ bool PriorHypotheses::Confirm(const FeatureTracks& tracks,
   return pose && IsSameMotion(*pose, reconstruction.cam_from_reference.back());
 }
 
+double TurnChi2(const MeasuredTurns& turns, const Reconstruction& reconstruction) {
+  const auto size = 3 * static_cast<Eigen::Index>(turns.of_views.size());
+  Eigen::VectorXd residual(size);
+  Eigen::MatrixXd by_errors(size, 7);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size);
+  for (std::size_t i = 0; i < turns.of_views.size(); ++i) {
+    const auto row = 3 * static_cast<Eigen::Index>(i);
+    const CameraTurn& turn = turns.of_views[i];
+    residual.segment<3>(row) =
+        LogSo3(reconstruction.cam_from_reference[i].rotation * turn.b_from_a.conjugate());
+    by_errors.middleRows<3>(row) = turn.by_errors;
+    covariance.block<3, 3>(row, row) = turn.noise;
+    covariance.block<3, 3>(row, row).diagonal().array() += kTurnSigma * kTurnSigma;
+  }
+  covariance += by_errors * turns.errors * by_errors.transpose();
+  return residual.dot(covariance.ldlt().solve(residual));
+}
+
 ModelSelection SelectModel(const FeatureTracks& tracks,
                            const ModelSelectionOptions& options,
                            PriorHypotheses& prior,
-                           Rng& rng) {
+                           Rng& rng,
+                           const std::optional<MeasuredTurns>& turns) {
   using enum InitializationStatus;
   const std::vector<RayMatch> matches = MatchesBetween(tracks.reference, tracks.views.back());
   if (matches.size() < kMinPoints) return {.wait = kTooFewMatches};
@@ -238,10 +273,12 @@ ModelSelection SelectModel(const FeatureTracks& tracks,
   // the models from before adjustment are kept.
   std::vector<CandidateModel> before = models;
   AdjustAll(scaled, models);
+  DropContradicted(turns, models);
   ModelSelection selection{.wait = Decide(scaled, models)};
   if (NeedsLines(scaled, selection.wait)) {
     models.insert(models.end(), before.begin(), before.end());
     models = AdjustWithLines(scaled, std::move(models), kMinNoise);
+    DropContradicted(turns, models);
     selection.wait = Decide(scaled, models);
   }
   Reconstruction& best = models.front().reconstruction;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/base/random.h"
+#include "plumbline/inertial/gyroscope.h"
 #include "plumbline/initialization/candidate_models.h"
 #include "plumbline/initialization/initializer.h"
 #include "plumbline/initialization/track_factorization.h"
@@ -48,6 +49,17 @@ class PriorHypotheses {
   bool sure_ = false;
 };
 
+// The turns of the camera from the reference to each view by a gyroscope, and the covariance of
+// its errors, which are the same for all of them.
+struct MeasuredTurns {
+  std::vector<CameraTurn> of_views;
+  Matrix7d errors = Matrix7d::Identity();
+};
+
+// Returns the chi2 of a model's rotations by the measured turns, with as many degrees of freedom
+// as three times the views.
+double TurnChi2(const MeasuredTurns& turns, const Reconstruction& reconstruction);
+
 // Reconstructs the tracks by all hypotheses for the newest frame, and decides whether one is
 // certain to be right:
 //
@@ -58,6 +70,8 @@ class PriorHypotheses {
 //    inliers and 1.2 degrees of parallax.
 //  - The best model must beat every model with another motion by a margin of chi2 above that of
 //    noise (kAmbiguous otherwise). This resolves the two interpretations of a plane.
+//  - With a gyroscope, models whose rotations it excludes do not count, unless it excludes all. The
+//    wrong interpretation of a plane turns by other angles.
 //  - The first-order covariance must reach the accuracy that a map needs (kTooLittleParallax or
 //    kInaccurate otherwise). A camera that stands or turns leaves depth and direction undetermined,
 //    as the covariance shows. It also reveals a small object that moves in front of a camera at
@@ -68,6 +82,7 @@ class PriorHypotheses {
 ModelSelection SelectModel(const FeatureTracks& tracks,
                            const ModelSelectionOptions& options,
                            PriorHypotheses& prior,
-                           Rng& rng);
+                           Rng& rng,
+                           const std::optional<MeasuredTurns>& turns = std::nullopt);
 
 }  // namespace plumbline

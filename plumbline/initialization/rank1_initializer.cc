@@ -45,7 +45,7 @@ InitializationResult Rank1Initializer::Add(const InitializationFrame& frame) {
   ++counts_.model_selections;
   counts_.aligned_images += window_.FollowsImages() ? 1 : 0;
   Rng rng(seed_, "initialization", static_cast<std::uint64_t>(frame.id.value));
-  const ModelSelection selection = SelectModel(tracks, selection_, prior_, rng);
+  const ModelSelection selection = SelectModel(tracks, selection_, prior_, rng, TurnsOf(frames));
   result.wait = selection.wait;
   result.parallax_deg = selection.parallax_deg;
   if (!selection.reconstruction) return result;
@@ -65,6 +65,18 @@ InitializationResult Rank1Initializer::Add(const InitializationFrame& frame) {
   }
   result.map = std::move(map);
   return result;
+}
+
+// Returns the turns from the reference to the frames; nullopt unless a gyroscope measured all.
+std::optional<MeasuredTurns> Rank1Initializer::TurnsOf(const std::vector<int>& frames) const {
+  if (gyroscope_ == nullptr || !gyroscope_->agrees()) return std::nullopt;
+  MeasuredTurns turns{{}, gyroscope_->covariance()};
+  for (const int frame : frames) {
+    const auto turn = gyroscope_->Turn(window_.reference().stamp_ns, window_.frame(frame).stamp_ns);
+    if (!turn) return std::nullopt;
+    turns.of_views.push_back(*turn);
+  }
+  return turns;
 }
 
 void Rank1Initializer::Reset() {

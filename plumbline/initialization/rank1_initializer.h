@@ -6,6 +6,8 @@
 #include "plumbline/initialization/tracks.h"
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace plumbline {
 
@@ -26,6 +28,8 @@ class Rank1Initializer : public Initializer {
   void Reset() override;
 
  private:
+  std::optional<MeasuredTurns> TurnsOf(const std::vector<int>& frames) const;
+
   RectifiedCamera camera_;
   int frames_;  // m of the paper
   ModelSelectionOptions selection_;

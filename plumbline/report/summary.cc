@@ -223,6 +223,20 @@ void AddStages(const RunResult& result, Json& json) {
   json["stages"] = stages;
 }
 
+Json Described(const InertialResult& inertial) {
+  const double degrees = 180 / std::numbers::pi;
+  const auto list = [](const Eigen::Vector3d& v) { return Json{v.x(), v.y(), v.z()}; };
+  const GyroscopeErrors &errors = inertial.errors, &sigmas = inertial.sigmas;
+  return {{"turns", inertial.turns},
+          {"contradicted", inertial.contradicted},
+          {"gyroscope_bias", list(errors.head<3>())},
+          {"gyroscope_bias_sigma", list(sigmas.head<3>())},
+          {"rotation_correction_deg", list(degrees * errors.segment<3>(3))},
+          {"rotation_correction_sigma_deg", list(degrees * sigmas.segment<3>(3))},
+          {"time_offset_correction", errors[6]},
+          {"time_offset_correction_sigma", sigmas[6]}};
+}
+
 }  // namespace
 
 std::vector<std::string> NotesOf(const RunDescription& description, const Dataset& dataset) {
@@ -263,6 +277,7 @@ std::string FormatSummary(const RunDescription& description,
   json["points"] = counts.points;
   json["lines"] = counts.lines;
   AddEvents(result.events, json);
+  if (result.inertial) json["inertial"] = Described(*result.inertial);
   const auto error = CompareWithGroundTruth(result, dataset);
   json["accuracy"] = error ? Accuracy(*error, dataset.sensor(), counts.frames) : Json(nullptr);
   json["no_errors"] = error ? Json(nullptr) : Json(WhyNoErrors(dataset.info()));

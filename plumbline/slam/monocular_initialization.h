@@ -49,6 +49,8 @@ class MonocularInitialization {
                           const SystemMethods& methods = {},
                           HelperThread* helper = nullptr);
 
+  // Lets a gyroscope take part in the decision for a start; it must outlive this object.
+  void Use(const Gyroscope& gyroscope) { initializer_->Use(gyroscope); }
   InitializationResult Offer(FrameId id, const ExtractedFrame& frame);
   // Counts of the initializer so far.
   const InitializationCounts& counts() const { return initializer_->counts(); }

@@ -26,6 +26,10 @@ Pipeline::~Pipeline() {
   job_added_.notify_all();
 }
 
+void Pipeline::AddInertial(std::span<const InertialSample> samples) {
+  inertial_.insert(inertial_.end(), samples.begin(), samples.end());
+}
+
 void Pipeline::Feed(SensorFrame frame) {
   Job job;
   job.stamp_ns = frame.stamp_ns;
@@ -69,6 +73,7 @@ RunResult Pipeline::Finish(const StopCheck& stop, std::exception_ptr* failure) {
 }
 
 void Pipeline::Hand(Job job) {
+  job.inertial = std::exchange(inertial_, {});
   if (mode_ == RunMode::kInline) {
     Process(std::move(job));
     return;
@@ -101,6 +106,7 @@ std::size_t Pipeline::Waiting() const {
 }
 
 void Pipeline::Process(Job job) {
+  system_.AddInertial(job.inertial);
   if (!job.HasFrame()) {
     dropped_ += job.dropped;
     observer_(system_.Skip(

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/image/image.h"
+#include "plumbline/inertial/inertial_sample.h"
 #include "plumbline/slam/execution.h"
 #include "plumbline/slam/load_control.h"
 #include "plumbline/slam/system.h"
@@ -15,8 +16,10 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace plumbline {
 
@@ -62,6 +65,9 @@ class Pipeline {
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
+  // Takes samples of the inertial sensor (System::AddInertial), which are used from the next frame
+  // on that is fed, or skipped.
+  void AddInertial(std::span<const InertialSample> samples);
   // Takes the next frame, in order of time. Exceptions that System::Process would throw for it are
   // thrown by this call or a later one.
   void Feed(SensorFrame frame);
@@ -86,7 +92,8 @@ class Pipeline {
     std::int64_t stamp_ns = 0;
     std::optional<ExtractedFrame> extracted;
     std::optional<SensorFrame> raw;
-    StageClock clock;  // times a raw frame since its arrival
+    std::vector<InertialSample> inertial;  // kept if the frame is dropped
+    StageClock clock;                      // times a raw frame since its arrival
     Execution::Clock::time_point arrival;
     double interval = 0;   // seconds since the previous frame; 0: unknown
     std::string reason;    // reason without images; else empty
@@ -109,6 +116,7 @@ class Pipeline {
   RunMode mode_;
   Execution execution_;
   std::optional<std::int64_t> last_stamp_ns_;  // stamp of the last frame that was fed
+  std::vector<InertialSample> inertial_;       // for the next frame
   // State that only the worker uses.
   LoadControl shedding_;
   int dropped_ = 0;  // frames left out since the last frame that was tracked

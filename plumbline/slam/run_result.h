@@ -7,6 +7,7 @@
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/se3.h"
 #include "plumbline/geometry/trajectory.h"
+#include "plumbline/inertial/gyroscope.h"
 #include "plumbline/map/atlas.h"
 #include "plumbline/map/saved_atlas.h"
 #include "plumbline/mapping/mapped_line.h"
@@ -23,6 +24,14 @@
 #include <Eigen/Geometry>
 
 namespace plumbline {
+
+// What a run did with the gyroscope of its inertial sensor, and found out about it (Gyroscope).
+struct InertialResult {
+  std::int64_t turns = 0;         // between frames, measured by camera and gyroscope
+  std::int64_t contradicted = 0;  // of them, while the sensor was put aside
+  GyroscopeErrors errors = GyroscopeErrors::Zero();  // beside the calibration
+  GyroscopeErrors sigmas = GyroscopeErrors::Zero();  // their deviations
+};
 
 // Returns the pose world_from_camera of the left camera as delivered (before rectification), from
 // that of the rectified one.
@@ -41,9 +50,10 @@ class RunResult {
   // a hash of the first frame's features and stamp, the rig and the options, so that the same input
   // is the same session wherever it is stored. The path of the input is not part of it.
   AtlasContext context;
-  bool read_only = false;        // maps were loaded and did not change
-  KeyFrameId first_keyframe{0};  // first id of this run's own keyframes
-  MapEvents events;              // loops, merges and relocalizations, each kind in order
+  bool read_only = false;                  // maps were loaded and did not change
+  KeyFrameId first_keyframe{0};            // first id of this run's own keyframes
+  MapEvents events;                        // loops, merges and relocalizations, each kind in order
+  std::optional<InertialResult> inertial;  // nullopt without a sensor
   AdjustedLines adjusted_lines;  // lines in local bundle adjustment, summed over all windows
   // Numbers of steps not told by the times of frames: "cut_lines", lines whose cut piece was used
   // for the pose of a frame (CuttingOptions); "start_...", steps of monocular initialization.

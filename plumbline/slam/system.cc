@@ -6,6 +6,7 @@
 #include "plumbline/geometry/covariance.h"
 #include "plumbline/geometry/measured_depth.h"
 #include "plumbline/geometry/rectified_camera.h"
+#include "plumbline/inertial/gyroscope.h"
 #include "plumbline/slam/atlas_context.h"
 #include "plumbline/slam/saved_options.h"
 #include "plumbline/slam/system_methods.h"
@@ -84,6 +85,18 @@ System::~System() = default;
 
 void System::Observe(std::function<void(const Atlas&, const LoopAttempt&)> observer) {
   mapping_.Observe(std::move(observer));
+}
+
+void System::UseInertial(const InertialCalibration& calibration) {
+  PLUMBLINE_CHECK(result_.frames.empty(), "an inertial sensor is known before the first frame");
+  stages_->gyroscope =
+      std::make_unique<Gyroscope>(calibration, rectifier().rectified_left_from_left());
+  tracker_.Use(*stages_->gyroscope);
+  if (monocular_initialization_) monocular_initialization_->Use(*stages_->gyroscope);
+}
+
+void System::AddInertial(std::span<const InertialSample> samples) {
+  if (stages_->gyroscope) stages_->gyroscope->Add(samples);
 }
 
 std::size_t System::TasksWaiting() const { return mapping_.Waiting(); }
@@ -462,6 +475,12 @@ RunResult System::Finish(const StopCheck& stop, std::exception_ptr* failure) {
   keeping([&] { LoseFramesNotMapped(); });
   if (!first) keeping([&] { LocateEarlyFrames(stop); });
   keeping([&] { CollectMaps(); });
+  if (const Gyroscope* gyroscope = stages_->gyroscope.get()) {
+    result_.inertial = {gyroscope->observed(),
+                        gyroscope->contradicted(),
+                        gyroscope->errors(),
+                        gyroscope->covariance().diagonal().cwiseSqrt()};
+  }
   finished_ = true;
   if (failure != nullptr) *failure = first;
   if (failure == nullptr && first) std::rethrow_exception(first);

@@ -20,6 +20,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,8 @@ struct MapSnapshot;
 struct RelocalizationOutcome;
 struct SystemMethods;
 struct SystemStages;
+struct InertialCalibration;
+struct InertialSample;
 struct TrackingResult;
 struct UnfinishedFrame;
 class FrontEnd;
@@ -101,6 +104,16 @@ class System {
   // Sets an observer, for measurements, of the comparisons of each new keyframe with older ones and
   // their results. It is called in the mapping thread. To be called before the first frame.
   void Observe(std::function<void(const Atlas&, const LoopAttempt&)> observer);
+
+  // Uses the inertial sensor of a calibration with imu_from_left, whose samples AddInertial brings:
+  // its gyroscope predicts the turns of the camera, and takes part in the start of a single one. To
+  // be called before the first frame.
+  void UseInertial(const InertialCalibration& calibration);
+  // Takes samples of the inertial sensor in order of time, those of a frame before it is tracked:
+  // all up to its stamp on the sensor's clock, and one more if it is there. Samples of frames that
+  // are left out count for the next one. To be called in the tracking thread; without UseInertial
+  // they are left out.
+  void AddInertial(std::span<const InertialSample> samples);
 
   // Processes a frame and returns its record: Extract, Track and Complete in one call. The result
   // is valid until the next frame. Throws InputError if an image is missing or its size differs

@@ -6,6 +6,7 @@
 #include "plumbline/geometry/se3.h"
 #include "plumbline/image/pyramid.h"
 #include "plumbline/image/rectify.h"
+#include "plumbline/inertial/gyroscope.h"
 #include "plumbline/matching/projection_search.h"
 #include "plumbline/slam/execution.h"
 #include "plumbline/slam/front_end.h"
@@ -32,7 +33,8 @@ struct SystemStages {
   CameraAndPyramid imaging;
   MapperThread mapping;
   Tracker tracker;
-  Relocalizer relocalizer;  // for live runs: in earlier snapshots
+  std::unique_ptr<Gyroscope> gyroscope;  // null without an inertial sensor
+  Relocalizer relocalizer;               // for live runs: in earlier snapshots
   std::unique_ptr<MonocularInitialization> monocular_initialization;  // null if depth is measured
 };
 

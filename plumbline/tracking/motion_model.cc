@@ -4,6 +4,8 @@
 
 #include "plumbline/optimization/pose_uncertainty.h"
 
+#include <cmath>
+
 namespace plumbline {
 namespace {
 
@@ -22,6 +24,30 @@ PosePrior MotionModel::Predict(const Rigid3& last_pose, double seconds) const {
   covariance.diagonal() += sigma.cwiseAbs2();
   prior.information = covariance.inverse();
   return prior;
+}
+
+TurnedPrediction MotionModel::PredictTurned(const Rigid3& last_pose,
+                                            double seconds,
+                                            const CameraTurn& turn) const {
+  constexpr double kLongest = 1;  // seconds that a velocity is believed
+  const Vector6d step =
+      velocity_ && seconds <= kLongest ? Vector6d(seconds * *velocity_) : Vector6d::Zero();
+  const Eigen::Vector3d centre = Inverse(ExpSe3(step)).translation;
+  const Rigid3 motion{turn.b_from_a, -(turn.b_from_a * centre)};
+  TurnedPrediction prediction{{motion * last_pose}, std::nullopt};
+  if (!spread_) return prediction;
+  const Matrix6d carried = Adjoint(motion);
+  Matrix6d covariance = carried * spread_->covariance * carried.transpose();
+  covariance.topLeftCorner<3, 3>() += turn.covariance;
+  const double moved = kMotionSigma * seconds * seconds * spread_->scene_depth;
+  covariance.diagonal().tail<3>().array() += moved * moved;
+  prediction.prior.information = covariance.inverse();
+  prediction.covariance = covariance;
+  const double depth = spread_->scene_depth;
+  prediction.direction_sigma =
+      std::sqrt(covariance.diagonal().head<2>().mean() +
+                covariance.diagonal().segment<2>(3).mean() / (depth * depth));
+  return prediction;
 }
 
 const Matrix6d& MotionModel::Observe(const Rigid3& last_pose,

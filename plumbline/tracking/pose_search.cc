@@ -140,11 +140,12 @@ std::optional<PoseEstimate> PoseSearch::FromPrediction(const Frame& frame,
                                                        const PosePrior& predicted,
                                                        const LastFrame& last,
                                                        const MapSnapshot& snapshot,
-                                                       LandmarkMatches& association) const {
+                                                       LandmarkMatches& association,
+                                                       double factor) const {
   std::optional<PoseEstimate> best;
-  for (const LastSearch& how : {LastSearch{Depths::kKnown, 1},
-                                LastSearch{Depths::kUncertain, 1},
-                                LastSearch{Depths::kGuessed, 1},
+  for (const LastSearch& how : {LastSearch{Depths::kKnown, factor},
+                                LastSearch{Depths::kUncertain, factor},
+                                LastSearch{Depths::kGuessed, factor},
                                 LastSearch{Depths::kGuessed, kWideFactor}}) {
     // Guessed depths may be wrong, so that they are used only if needed.
     const double limit =

@@ -28,6 +28,7 @@ struct PoseAttempt {
   LandmarkIds expected;
   FrameCounts counts;  // counts of the matches
   PoseEstimate pose;
+  bool predicted = false;  // true if a prediction of the pose took part in it
 };
 
 // Fewest points and lines that determine a pose: the first number holds for a pose near the
@@ -57,14 +58,15 @@ class PoseSearch {
              const PoseEstimator& estimator);
 
   // Finds a pose from the landmarks of the last frame, and from points and lines made from its
-  // depths, near their projections by `predicted`. Landmarks of more uncertain depth are used if
-  // the others are few or do not determine the pose. Returns nullopt if no pose is accepted with
-  // more matches than by chance.
+  // depths, near their projections by `predicted`, within `factor` times the usual radius.
+  // Landmarks of more uncertain depth are used if the others are few or do not determine the pose.
+  // Returns nullopt if no pose is accepted with more matches than by chance.
   std::optional<PoseEstimate> FromPrediction(const Frame& frame,
                                              const PosePrior& predicted,
                                              const LastFrame& last,
                                              const MapSnapshot& snapshot,
-                                             LandmarkMatches& association) const;
+                                             LandmarkMatches& association,
+                                             double factor = 1) const;
   // Finds a pose by matching descriptors with the newest keyframe (in odometry with the last
   // frame). Starts from the pose with most inlier points, or if there is none from the last pose.
   // Returns nullopt if no pose is accepted.

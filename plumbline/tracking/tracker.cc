@@ -52,6 +52,7 @@ Tracker::Tracker(const CameraAndPyramid& imaging,
                  const LossPatience& loss)
     : options_(options),
       search_(imaging, options, estimator),
+      focal_(imaging.camera.fx),
       monocular_(!MeasuresDepth(imaging.camera)),
       first_cam_from_world_(Inverse(world_from_first_cam)),
       loss_(loss) {}
@@ -84,13 +85,13 @@ TrackingResult Tracker::TrackInMap(Frame frame, const MapSnapshot& map, double f
   UpdateLastFrame(map);  // mapping may have moved its reference keyframe
   const Rigid3 last_pose = last_->frame.cam_from_world;
   const double seconds = 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns);
-  const PosePrior predicted = motion_.Predict(last_pose, seconds);
+  const Prediction predicted = Predict(last_pose, frame.stamp_ns, seconds);
 
   FrameCounts counts;  // matches by descriptors
   std::optional<PoseAttempt> best = TrackWithMotionModel(frame, predicted, map);
   // Without a known motion the prediction finds whatever happens to lie there. Where much less is
   // found than in the frame before, the motion was unexpected.
-  if (!best || !motion_.IsKnown() || IsWeak(*best)) {
+  if (!best || !motion_.IsKnown() || state_ == TrackerState::kLost || IsWeak(*best)) {
     best = Better(std::move(best), TrackReferenceKeyFrame(frame, map, counts));
   }
   const bool map_learns = !use_ || !use_->read_only;
@@ -102,20 +103,74 @@ TrackingResult Tracker::TrackInMap(Frame frame, const MapSnapshot& map, double f
   }
   frame.cam_from_world = pose.attempt->pose.cam_from_world;
   SetLandmarks(pose.attempt->association, frame);
+  const auto last_covariance = motion_.LastCovariance();
   const Matrix6d covariance = motion_.Observe(last_pose, pose.attempt->pose, seconds);
+  Teach(predicted, last_pose, last_covariance, *pose.attempt, seconds);
   const bool needs_keyframe = NeedsKeyFrame(frame, pose.attempt->association, map, feature_share);
   TrackingResult result = FinishTracked(std::move(frame), std::move(pose), map, needs_keyframe);
   result.covariance = covariance;
   return result;
 }
 
+// The gyroscope tells the turn also over lost frames; without it the motion is unknown after them.
+Tracker::Prediction Tracker::Predict(const Rigid3& last_pose,
+                                     std::int64_t stamp_ns,
+                                     double seconds) {
+  constexpr double kDeviations = 2, kNarrowest = 0.5;
+  Prediction predicted;
+  if (gyroscope_ != nullptr) {
+    predicted.turn = gyroscope_->Turn(last_->frame.stamp_ns, stamp_ns);
+    if (predicted.turn && gyroscope_->agrees()) {
+      const TurnedPrediction turned = motion_.PredictTurned(last_pose, seconds, *predicted.turn);
+      predicted.prior = turned.prior;
+      predicted.covariance = turned.covariance;
+      if (turned.covariance) {
+        const double usual_px = FirstSearch().point_radius_px;
+        predicted.window = std::clamp(
+            kDeviations * focal_ * turned.direction_sigma / usual_px, kNarrowest, kWideFactor);
+      }
+      return predicted;
+    }
+    if (state_ == TrackerState::kLost) motion_.Forget();
+  }
+  predicted.prior = motion_.Predict(last_pose, seconds);
+  return predicted;
+}
+
+void Tracker::Teach(const Prediction& predicted,
+                    const Rigid3& last_pose,
+                    const std::optional<Matrix6d>& last_covariance,
+                    const PoseAttempt& attempt,
+                    double seconds) {
+  if (!predicted.turn || !last_covariance) return;
+  const Eigen::Matrix3d estimated = attempt.pose.information.inverse().topLeftCorner<3, 3>();
+  const Rigid3& pose = attempt.pose.cam_from_world;
+  if (predicted.covariance && attempt.predicted) {
+    const Eigen::Quaterniond expected = predicted.prior.cam_from_world.rotation;
+    gyroscope_->ObserveChange(*predicted.turn,
+                              predicted.covariance->topLeftCorner<3, 3>(),
+                              LogSo3(pose.rotation * expected.conjugate()),
+                              estimated,
+                              seconds);
+    return;
+  }
+  const Eigen::Matrix3d R = predicted.turn->b_from_a.toRotationMatrix();
+  gyroscope_->Observe(*predicted.turn,
+                      pose.rotation * last_pose.rotation.conjugate(),
+                      estimated + R * last_covariance->topLeftCorner<3, 3>() * R.transpose(),
+                      seconds);
+}
+
 std::optional<PoseAttempt> Tracker::TrackWithMotionModel(const Frame& frame,
-                                                         const PosePrior& predicted,
+                                                         const Prediction& predicted,
                                                          const MapSnapshot& snapshot) const {
   LandmarkMatches found;
-  const auto first = search_.FromPrediction(frame, predicted, *last_, snapshot, found);
+  const auto first =
+      search_.FromPrediction(frame, predicted.prior, *last_, snapshot, found, predicted.window);
   if (!first) return std::nullopt;
-  return TrackLocalMap(frame, *first, predicted, snapshot, std::move(found));
+  PoseAttempt attempt = TrackLocalMap(frame, *first, predicted.prior, snapshot, std::move(found));
+  attempt.predicted = true;
+  return attempt;
 }
 
 std::optional<PoseAttempt> Tracker::TrackReferenceKeyFrame(const Frame& frame,
@@ -228,7 +283,7 @@ TrackingResult Tracker::FinishLost(Frame frame, TrackingFailure failure, FrameCo
   // A frame that shows nothing is no evidence against the map.
   ++(blind && blind_frames_ < loss_.blind_frames ? blind_frames_ : lost_frames_);
   state_ = NextState(state_, false, lost_frames_, Patience(frame, blind));
-  motion_.Forget();
+  if (gyroscope_ == nullptr) motion_.Forget();
   TrackingResult result;
   result.state = state_;
   result.failure = failure;
@@ -328,7 +383,7 @@ TrackingResult Tracker::StartMap(Frame frame) {
 
 bool Tracker::NeedsRightLines() const {
   if (monocular_) return false;
-  return state_ == TrackerState::kInitializing || IsOdometry() ||
+  return state_ != TrackerState::kTracking || IsOdometry() ||
          !motion_.LastPoseIsKnownTo(kEnoughForLeftLines);
 }
 

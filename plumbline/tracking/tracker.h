@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/image/pyramid.h"
+#include "plumbline/inertial/gyroscope.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/keyframe_pose.h"
 #include "plumbline/map/snapshot.h"
@@ -101,7 +102,8 @@ struct TrackingResult {
 
 // Follows the camera: tracks one frame after the other against an immutable snapshot of the map.
 //
-// The pose is predicted by constant velocity. Landmarks of the last frame (and points and lines
+// The pose is predicted by constant velocity, its rotation by a gyroscope if there is one (Use),
+// also of frames after lost ones. Landmarks of the last frame (and points and lines
 // with depth that are not in the map yet) are searched near their predicted places, then the rest
 // of the snapshot is searched; after each search the pose is estimated from points and lines
 // together. When the prediction fails, the frame is matched by appearance with the snapshot's
@@ -152,6 +154,9 @@ class Tracker {
   // Continues, after being lost, from a relocalized frame. `snapshot` is taken around the candidate
   // from which its pose was found.
   void FollowFrom(const Relocalized& found, const MapSnapshot& snapshot);
+  // Predicts the turns of the camera by a gyroscope from now on, which learns from the poses. It
+  // must outlive this object.
+  void Use(Gyroscope& gyroscope) { gyroscope_ = &gyroscope; }
   // Reports a failed relocalization of a lost frame.
   void NotFound() { asked_ = true; }
   // Handles a removed keyframe: poses that refer to it refer to its parent from now on.
@@ -185,10 +190,25 @@ class Tracker {
     FrameCounts counts;  // of this attempt
   };
 
+  // Where the frame is expected, and by what.
+  struct Prediction {
+    PosePrior prior;
+    double window = 1;                   // times the usual radius of the first search
+    std::optional<CameraTurn> turn;      // since the last pose, if the gyroscope measured it
+    std::optional<Matrix6d> covariance;  // of prior's pose, if the turn is part of it
+  };
+  Prediction Predict(const Rigid3& last_pose, std::int64_t stamp_ns, double seconds);
+  // Lets the gyroscope learn from a pose.
+  void Teach(const Prediction& predicted,
+             const Rigid3& last_pose,
+             const std::optional<Matrix6d>& last_covariance,
+             const PoseAttempt& attempt,
+             double seconds);
+
   // Tracks a frame against a map: predicts the pose, estimates it, decides about a keyframe.
   TrackingResult TrackInMap(Frame frame, const MapSnapshot& map, double feature_share);
   std::optional<PoseAttempt> TrackWithMotionModel(const Frame& frame,
-                                                  const PosePrior& predicted,
+                                                  const Prediction& predicted,
                                                   const MapSnapshot& snapshot) const;
   std::optional<PoseAttempt> TrackReferenceKeyFrame(const Frame& frame,
                                                     const MapSnapshot& snapshot,
@@ -222,7 +242,9 @@ class Tracker {
 
   TrackingOptions options_;
   PoseSearch search_;
+  double focal_;  // pixels
   bool monocular_;
+  Gyroscope* gyroscope_ = nullptr;  // null if there is none
   Rigid3 first_cam_from_world_;
   LossPatience loss_;
   TrackerState state_ = TrackerState::kInitializing;

@@ -37,6 +37,19 @@ struct Count {
   int right = 0, wrong = 0;
 };
 
+// The turns of the scene's true motion as a gyroscope tells them, turned on by `wrong`.
+MeasuredTurns TurnsOf(const TrackScene& scene, const Eigen::Vector3d& wrong) {
+  MeasuredTurns turns;
+  turns.errors = 1e-4 * Matrix7d::Identity();
+  for (const Rigid3& pose : scene.truth.cam_from_reference) {
+    CameraTurn turn;
+    turn.b_from_a = ExpSo3(wrong) * pose.rotation;
+    turn.noise = turn.covariance = 1e-6 * Eigen::Matrix3d::Identity();
+    turns.of_views.push_back(turn);
+  }
+  return turns;
+}
+
 Count CountOf(const std::vector<Rigid3>& poses, const TrackSceneOptions& options) {
   Count count;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
@@ -71,6 +84,35 @@ TEST(SelectModel, WaitsWhereAPlaneIsAmbiguous) {
   }
   const Count count = CountOf(poses, {.plane = true, .sigma = kSigma});
   EXPECT_EQ(count.wrong, 0);
+}
+
+// A gyroscope decides it: only one of them turns as the camera did. One that contradicts both, as
+// a wrong calibration makes it, decides nothing.
+TEST(SelectModel, DecidesAPlaneByAGyroscope) {
+  std::vector<Rigid3> poses;
+  for (int i = 1; i <= 3; ++i) {
+    poses.push_back({Eigen::Quaterniond::Identity(), -0.15 * i * Eigen::Vector3d(1, 0.2, 0.2)});
+  }
+  const auto started = [&](const Eigen::Vector3d& wrong) {
+    Count count;
+    for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+      const TrackScene scene = MakeTrackScene(seed, poses, {.plane = true, .sigma = kSigma});
+      const MeasuredTurns turns = TurnsOf(scene, wrong);
+      PriorHypotheses prior;
+      Rng rng(seed, "decide");
+      SelectModel(scene.tracks, {}, prior, rng, turns);
+      const auto found = SelectModel(scene.tracks, {}, prior, rng, turns).reconstruction;
+      if (found) ++(IsRight(scene, *found) ? count.right : count.wrong);
+    }
+    return count;
+  };
+  const Count by_images = CountOf(poses, {.plane = true, .sigma = kSigma});
+  const Count by_gyroscope = started({0, 0, 0});
+  EXPECT_GE(by_gyroscope.right, by_images.right + kSeeds / 2);
+  EXPECT_EQ(by_gyroscope.wrong, 0);
+  const Count contradicted = started({0, 0, 1});
+  EXPECT_EQ(contradicted.right, by_images.right);
+  EXPECT_EQ(contradicted.wrong, 0);
 }
 
 TEST(SelectModel, WaitsWhileTheCameraTurnsOrStands) {

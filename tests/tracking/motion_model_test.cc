@@ -39,6 +39,29 @@ TEST(MotionModel, GoesOnWithTheVelocityOverFramesThatAreMissing) {
   EXPECT_LT(Distance(motion.Predict(second, 3 * kFrameSeconds).cam_from_world, third), 1e-12);
 }
 
+TEST(MotionModel, TurnsByTheGyroscopeAboutTheCentreThatGoesOn) {
+  MotionModel motion;
+  const Rigid3 second = RetractLeft(Rigid3{}, kFrameSeconds * Velocity());
+  motion.Observe(Rigid3{}, EstimateAt(second), kFrameSeconds);
+  CameraTurn turn;
+  turn.b_from_a = ExpSo3({0.3, -0.2, 0.1});
+  turn.covariance = 1e-6 * Eigen::Matrix3d::Identity();
+  const TurnedPrediction turned = motion.PredictTurned(second, kFrameSeconds, turn);
+  const PosePrior usual = motion.Predict(second, kFrameSeconds);
+  const Rigid3& pose = turned.prior.cam_from_world;
+  EXPECT_LT(LogSo3(pose.rotation * (turn.b_from_a * second.rotation).conjugate()).norm(), 1e-12);
+  EXPECT_LT((Inverse(pose).translation - Inverse(usual.cam_from_world).translation).norm(), 1e-12);
+  ASSERT_TRUE(turned.covariance);
+  // The rotation is known better than without, the place as well.
+  const Matrix6d without = usual.information.inverse();
+  for (int i = 0; i < 3; ++i) EXPECT_LT((*turned.covariance)(i, i), 0.1 * without(i, i));
+  EXPECT_GT((*turned.covariance)(5, 5), 0.9 * without(5, 5));
+  EXPECT_GT(turned.direction_sigma, 0);
+  // After more than a second the centre counts as at rest.
+  const Rigid3 late = motion.PredictTurned(second, 1.5, turn).prior.cam_from_world;
+  EXPECT_LT((Inverse(late).translation - Inverse(second).translation).norm(), 1e-12);
+}
+
 TEST(MotionModel, KnowsLessTheLongerAgoTheLastFrameIs) {
   MotionModel motion;
   motion.Observe(Rigid3{}, EstimateAt(Rigid3{}), kFrameSeconds);

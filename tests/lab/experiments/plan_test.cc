@@ -79,7 +79,12 @@ TEST(Plan, RunKHasSeedKAndBeginsAtFrameKMinusOne) {
                           "--set",
                           "slam.mode=inline",
                           "--set",
-                          "features.lines=false"));
+                          "features.lines=false",
+                          "--imu",
+                          "off"));
+  experiment.variants[0].arguments = {"--imu", "auto"};
+  const std::vector<std::string> with_imu = MakePlan(experiment, request).jobs[1].command;
+  EXPECT_EQ(std::count(with_imu.begin(), with_imu.end(), "--imu"), 1);
 }
 
 TEST(Plan, AReversedVariantPlaysASequenceThatIsWrittenForIt) {
