@@ -50,9 +50,7 @@ std::optional<InertialRecording> FindUsable(const CommandLine& line,
 
 InertialInput OpenInertial(const CommandLine& line, const Dataset& dataset) {
   InertialInput input;
-  // The systems of the papers have no such sensor.
-  const char* usual = line.Has("--preset") ? "off" : "auto";
-  const std::string imu = line.Value("--imu").value_or(usual);
+  const std::string imu = line.Value("--imu").value_or("off");
   if (imu == "off") return input;
   const bool wanted = imu != "auto";
   std::optional<InertialRecording> recording;

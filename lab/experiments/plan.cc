@@ -109,12 +109,6 @@ Job MakeJob(const ExperimentSequence& sequence,
   const std::filesystem::path& path = variant.reversed ? job.reversed : sequence.path;
   job.command = {name, path.string(), "--out", job.folder.string(), "--quiet"};
   job.command.insert(job.command.end(), arguments.begin(), arguments.end());
-  // Tables are of images alone, unless a variant asks for the inertial sensor. Earlier programs do
-  // not have the option.
-  const bool tells = std::find(arguments.begin(), arguments.end(), "--imu") != arguments.end();
-  if (name == "run" && !tells && !variant.by_earlier) {
-    job.command.insert(job.command.end(), {"--imu", "off"});
-  }
   if (variant.reversed && sequence.has_truth) {
     job.command.insert(job.command.end(), {"--ground-truth", (path / kReversedTruth).string()});
   }

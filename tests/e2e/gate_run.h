@@ -20,10 +20,9 @@ inline nlohmann::json Summary(const Gate& gate,
                               const std::filesystem::path& data,
                               const std::string& mode) {
   const ScratchFolder folder;
-  const Outcome outcome =
-      RunProgram(folder,
-                 "run " + Quoted(data) + " --imu off " + gate.settings + " --mode " + mode +
-                     " --quiet --out " + Quoted(folder / "run"));
+  const Outcome outcome = RunProgram(folder,
+                                     "run " + Quoted(data) + " " + gate.settings + " --mode " +
+                                         mode + " --quiet --out " + Quoted(folder / "run"));
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   if (outcome.code != 0) return nullptr;
   ExpectLandmarksFit(folder / "run/map.plb");

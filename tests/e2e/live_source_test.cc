@@ -86,7 +86,7 @@ TEST(RunLive, GivesTheBytesOfTheFolderFromAPipe) {
   ASSERT_EQ(fed.code, 0) << fed.err;
   EXPECT_THAT(fed.err, HasSubstr("frame 8 skipped: standard input: the sender has no image"));
   const Outcome whole = RunProgram(folder,
-                                   fmt::format("run {} --from {} --to {} --imu off --camera euroc --out {}",
+                                   fmt::format("run {} --from {} --to {} --camera euroc --out {}",
                                                Quoted(*data),
                                                kFrames.first,
                                                kFrames.second,

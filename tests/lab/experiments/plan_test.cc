@@ -79,12 +79,7 @@ TEST(Plan, RunKHasSeedKAndBeginsAtFrameKMinusOne) {
                           "--set",
                           "slam.mode=inline",
                           "--set",
-                          "features.lines=false",
-                          "--imu",
-                          "off"));
-  experiment.variants[0].arguments = {"--imu", "auto"};
-  const std::vector<std::string> with_imu = MakePlan(experiment, request).jobs[1].command;
-  EXPECT_EQ(std::count(with_imu.begin(), with_imu.end(), "--imu"), 1);
+                          "features.lines=false"));
 }
 
 TEST(Plan, AReversedVariantPlaysASequenceThatIsWrittenForIt) {
