@@ -22,10 +22,10 @@ struct InertialInput {
   std::vector<std::string> notes;
 };
 
-// Looks for the inertial sensor of a data set. With `auto`, the default without --preset, a sensor that cannot be
-// used is left out with a note: its samples are malformed or in units that cannot be, its place at
-// the camera is not known, the images are turned. With a FILE all but the units are an InputError.
-// A range that the samples show is noted in the calibration.
+// Looks for the inertial sensor of a data set, unless --imu is off, the default. With `auto` a
+// sensor that cannot be used is left out with a note: its samples are malformed or in units that
+// cannot be, its place at the camera is not known, the images are turned. With a FILE all but the
+// units are an InputError. A range that the samples show is noted in the calibration.
 InertialInput OpenInertial(const CommandLine& line, const Dataset& dataset);
 
 // Gives the samples of a recording out, frame by frame.

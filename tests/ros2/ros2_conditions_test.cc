@@ -252,37 +252,8 @@ TEST_F(Ros2ConditionsTest, KeepsItsMemoryWhileAHundredJoinAndLeave) {
   EXPECT_THAT(node.Said(), HasSubstr("10 frames came"));
 }
 
-// Compressed colour images, depth and camera_info: each frame gets a pose with its stamp.
-TEST(Ros2Rgbd, TakesCompressedImagesDepthAndCameraInfo) {
-  const auto sequence = FindData("tum/rgbd_dataset_freiburg1_floor_first90");
-  if (!sequence) GTEST_SKIP() << "the sequence is not there";
-  const auto dataset = OpenDataset(*sequence, {});
-  DdsPeer peer(Domain());
-  Ros2Node node({"image:=/rgb",
-                 "camera_info:=/rgb/info",
-                 "depth:=/depth",
-                 "-p",
-                 "sensor:=rgbd",
-                 "-p",
-                 "image_transport:=compressed",
-                 "-p",
-                 "reliability:=reliable",
-                 "-p",
-                 "base_frame:=cam0",
-                 "-p",
-                 "options.slam.mode:=lockstep"});
-  const auto images =
-      peer.MakeWriter("rt/rgb/compressed", sensor_msgs_msg_dds__CompressedImage__desc);
-  const auto depths = MakeImageWriter(peer, "rt/depth");
-  const auto infos = peer.MakeWriter("rt/rgb/info", sensor_msgs_msg_dds__CameraInfo__desc);
-  const auto poses = peer.MakeReader("rt/plumbline/pose", geometry_msgs_msg_dds__PoseStamped__desc);
-  ASSERT_TRUE(WaitUntil([&] {
-    return DdsPeer::HasReader(images) && DdsPeer::HasReader(depths) && DdsPeer::HasReader(infos) &&
-           DdsPeer::HasWriter(poses);
-  })) << node.Said();
-
-  std::string frame_id = "cam0", model = "plumb_bob", format = "webp", encoding = "32FC1";
-  const CameraIntrinsics& camera = dataset->calibration().left.intrinsics();
+void WriteCameraInfo(dds_entity_t writer, const CameraIntrinsics& camera) {
+  std::string frame_id = "cam0", model = "plumb_bob";
   std::vector<double> d(camera.distortion.begin(), camera.distortion.begin() + 5);
   CameraInfo info{};
   info.header.frame_id = frame_id.data();
@@ -295,41 +266,80 @@ TEST(Ros2Rgbd, TakesCompressedImagesDepthAndCameraInfo) {
   std::copy(k.begin(), k.end(), info.k);
   for (int i : {0, 4, 8}) info.r[i] = 1;
   for (int i = 0; i < 9; ++i) info.p[i + i / 3] = k[static_cast<std::size_t>(i)];
-  dds_write(infos, &info);
-  dds_wait_for_acks(infos, DDS_SECS(5));
+  dds_write(writer, &info);
+  dds_wait_for_acks(writer, DDS_SECS(5));
+}
 
+void WriteDepth(dds_entity_t writer, const SensorFrame& frame) {
+  std::vector<std::uint8_t> no_pixels;
+  std::string encoding = "32FC1";
+  DdsImage message = DdsImageOf(frame.left, frame.stamp_ns, no_pixels);
+  const DepthImage& metres = *frame.depth;
+  std::vector<float> values;
+  for (int y = 0; y < metres.height(); ++y) {
+    values.insert(values.end(), metres.row(y), metres.row(y) + metres.width());
+  }
+  message.encoding = encoding.data();
+  message.step = 4 * message.width;
+  message.data._buffer = reinterpret_cast<std::uint8_t*>(values.data());
+  message.data._length = message.data._maximum = static_cast<std::uint32_t>(4 * values.size());
+  dds_write(writer, &message);
+}
+
+// Sends the file of a frame of TUM's as it is. Returns false if there is none.
+bool WriteCompressed(dds_entity_t writer,
+                     const std::filesystem::path& sequence,
+                     const SensorFrame& frame) {
+  char name[64];
+  std::snprintf(name,
+                sizeof(name),
+                "rgb/%lld.%06lld.webp",
+                static_cast<long long>(frame.stamp_ns / kSecond),
+                static_cast<long long>(frame.stamp_ns % kSecond / 1000));
+  std::string file = Contents(sequence / name), format = "webp";
+  std::vector<std::uint8_t> no_pixels;
+  const DdsImage like = DdsImageOf(frame.left, frame.stamp_ns, no_pixels);
+  CompressedImage message{};
+  message.header = like.header;
+  message.format = format.data();
+  message.data._buffer = reinterpret_cast<std::uint8_t*>(file.data());
+  message.data._length = message.data._maximum = static_cast<std::uint32_t>(file.size());
+  dds_write(writer, &message);
+  return !file.empty();
+}
+
+// Compressed colour images, depth and camera_info: each frame gets a pose with its stamp.
+TEST(Ros2Rgbd, TakesCompressedImagesDepthAndCameraInfo) {
+  const auto sequence = FindData("tum/rgbd_dataset_freiburg1_floor_first90");
+  if (!sequence) GTEST_SKIP() << "the sequence is not there";
+  const auto dataset = OpenDataset(*sequence, {});
+  DdsPeer peer(Domain());
+  std::vector<std::string> arguments = {"image:=/rgb", "camera_info:=/rgb/info", "depth:=/depth"};
+  for (const char* parameter : {"sensor:=rgbd",
+                                "image_transport:=compressed",
+                                "reliability:=reliable",
+                                "base_frame:=cam0",
+                                "options.slam.mode:=lockstep"}) {
+    arguments.insert(arguments.end(), {"-p", parameter});
+  }
+  Ros2Node node(arguments);
+  const auto images =
+      peer.MakeWriter("rt/rgb/compressed", sensor_msgs_msg_dds__CompressedImage__desc);
+  const auto depths = MakeImageWriter(peer, "rt/depth");
+  const auto infos = peer.MakeWriter("rt/rgb/info", sensor_msgs_msg_dds__CameraInfo__desc);
+  const auto poses = peer.MakeReader("rt/plumbline/pose", geometry_msgs_msg_dds__PoseStamped__desc);
+  ASSERT_TRUE(WaitUntil([&] {
+    return DdsPeer::HasReader(images) && DdsPeer::HasReader(depths) && DdsPeer::HasReader(infos) &&
+           DdsPeer::HasWriter(poses);
+  })) << node.Said();
+  WriteCameraInfo(infos, dataset->calibration().left.intrinsics());
   std::size_t with_pose = 0;
   constexpr std::size_t kFrames = 6;
   for (std::size_t i = 0; i < kFrames; ++i) {
     const auto frame = dataset->Read(i);
     ASSERT_TRUE(frame && frame->depth);
-    std::vector<std::uint8_t> no_pixels;
-    DdsImage depth = DdsImageOf(frame->left, frame->stamp_ns, no_pixels);
-    const DepthImage& metres = *frame->depth;
-    std::vector<float> values;
-    for (int y = 0; y < metres.height(); ++y) {
-      values.insert(values.end(), metres.row(y), metres.row(y) + metres.width());
-    }
-    depth.encoding = encoding.data();
-    depth.step = 4 * depth.width;
-    depth.data._buffer = reinterpret_cast<std::uint8_t*>(values.data());
-    depth.data._length = depth.data._maximum = static_cast<std::uint32_t>(4 * values.size());
-
-    char name[64];
-    std::snprintf(name,
-                  sizeof(name),
-                  "rgb/%lld.%06lld.webp",
-                  static_cast<long long>(frame->stamp_ns / kSecond),
-                  static_cast<long long>(frame->stamp_ns % kSecond / 1000));
-    std::string file = Contents(*sequence / name);
-    ASSERT_FALSE(file.empty()) << name;
-    CompressedImage image{};
-    image.header = depth.header;
-    image.format = format.data();
-    image.data._buffer = reinterpret_cast<std::uint8_t*>(file.data());
-    image.data._length = image.data._maximum = static_cast<std::uint32_t>(file.size());
-    dds_write(images, &image);
-    dds_write(depths, &depth);
+    ASSERT_TRUE(WriteCompressed(images, *sequence, *frame));
+    WriteDepth(depths, *frame);
     EXPECT_TRUE(WaitUntil([&] {
       return DdsPeer::Take<PoseStamped>(poses, [&](const PoseStamped& message) {
         EXPECT_EQ(StampOf(message.header), frame->stamp_ns);
