@@ -23,6 +23,7 @@ TEST(Accuracy, FloorMono) { Check(kFloorMono); }
 TEST(Accuracy, OfficeMono) { Check(kOfficeMono); }
 TEST(Accuracy, RoadMono) { Check(kRoadMono); }
 TEST(Accuracy, RoadTurnMono) { Check(kRoadTurnMono); }
+TEST(Accuracy, RoadLensMono) { Check(kRoadLensMono); }
 TEST(Accuracy, MachineHallWithLinesOnly) { Check(kMachineHallLines); }
 
 }  // namespace
