@@ -60,7 +60,12 @@ InertialInput OpenInertial(const CommandLine& line, const Dataset& dataset) {
     if (wanted) throw;
     input.notes.push_back(kLeftOut + std::string(error.what()));
   }
-  if (!recording) return input;
+  if (!recording) {
+    if (input.notes.empty()) {
+      input.notes.push_back("--imu auto: the data have no samples of an inertial sensor");
+    }
+    return input;
+  }
   const InertialCheck check = CheckInertial(recording->ordered, recording->calibration);
   const std::vector<std::string> faults = InertialFaults(check, recording->calibration);
   const bool wrong_units = check.rates_in_degrees;
@@ -101,6 +106,11 @@ std::vector<std::string> InertialNotes(const RunResult& result,
     for (const std::string& fault : AlignmentFaults(*alignment, recording.calibration)) {
       notes.push_back("inertial sensor: " + fault);
     }
+  }
+  if (result.inertial && result.inertial->turns == 0) {
+    notes.push_back(
+        "inertial sensor: not used, as no turn between frames was covered by samples: " +
+        recording.source);
   }
   if (result.inertial && result.inertial->contradicted > 0) {
     notes.push_back(

@@ -310,5 +310,25 @@ TEST(ToleratedInput, DepthThatIsZeroEverywhereIsTold) {
               HasSubstr("(too_few_features) in 12 of 12 frames; depth is zero everywhere\n"));
 }
 
+TEST(ToleratedInput, AnInertialSensorThatIsNotUsedIsTold) {
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 12);
+  const auto run = [&](const std::string& imu) {
+    return RunProgram(
+        folder, "run " + Quoted(sequence) + " --imu " + imu + " --out " + Quoted(folder / "out"));
+  };
+  const Outcome without = run("auto");
+  EXPECT_EQ(without.code, 0) << without.err;
+  EXPECT_THAT(without.err, HasSubstr("--imu auto: the data have no samples"));
+  // Samples of another day.
+  folder.Write("sequence/mav0/imu0/data.csv",
+               "1,0,0,0,0,0,9.81\n5000001,0,0,0.01,0,0,9.81\n10000001,0,0,0,0,0,9.81\n");
+  const fs::path imu = folder.Write(
+      "imu.yaml", "imu:\n  imu_from_left: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n");
+  const Outcome elsewhere = run(Quoted(imu));
+  EXPECT_EQ(elsewhere.code, 0) << elsewhere.err;
+  EXPECT_THAT(elsewhere.err, HasSubstr("not used, as no turn between frames was covered"));
+}
+
 }  // namespace tolerated_input_test
 }  // namespace plumbline
