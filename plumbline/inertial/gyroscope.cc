@@ -26,13 +26,13 @@ constexpr double kLongestGap = 0.15;  // seconds
 constexpr double kBias = 0.1;  // rad/s, that of sensors when they are turned on
 constexpr double kPlace = 3 * kDegree;
 constexpr double kClock = 0.003, kUnknownClock = 0.01;  // seconds
-// What a camera and its map do not tell of their errors.
+// The least deviation of a rotation that a camera and its map tell.
 constexpr double kLeastRotation = 1e-3;  // radians
 // Axes that are not quite square and scales, relative to the turn.
 constexpr double kAxes = 0.005;
 // Second derivative of a hand's rates: what a straight line over a gap misses [rad/s^3].
 constexpr double kBend = 150;
-// What errors may change in a second.
+// Random walks of place and clock.
 constexpr double kPlaceWalk = 1e-4;  // radians / sqrt(s)
 constexpr double kClockWalk = 1e-4;  // seconds / sqrt(s)
 
@@ -87,7 +87,7 @@ void Gyroscope::Add(std::span<const InertialSample> samples) {
   }
   if (samples_.empty()) return;
   const auto oldest = samples_.back().stamp_ns - static_cast<std::int64_t>(kKept * kNsPerSecond);
-  // Those of twice the time are there before any are moved.
+  // Samples of twice the time are collected before any are moved.
   if (samples_.front().stamp_ns > oldest - (samples_.back().stamp_ns - oldest)) return;
   std::erase_if(samples_, [oldest](const InertialSample& s) { return s.stamp_ns < oldest; });
 }
@@ -149,11 +149,7 @@ void Gyroscope::Observe(const CameraTurn& turn,
   const Eigen::LLT<Matrix3d> llt(S);
   if (llt.info() != Eigen::Success) return;
   Judge(residual.dot(llt.solve(residual)));
-  const Eigen::Matrix<double, 7, 3> gain =
-      covariance_ * turn.by_errors.transpose() * llt.solve(Matrix3d::Identity());
-  errors_ += gain * residual;
-  covariance_ -= gain * S * gain.transpose();
-  Grow(seconds);
+  Learn(turn, llt.solve(Matrix3d::Identity()), residual, S, seconds);
 }
 
 void Gyroscope::ObserveChange(const CameraTurn& turn,
@@ -161,7 +157,7 @@ void Gyroscope::ObserveChange(const CameraTurn& turn,
                               const Vector3d& change,
                               const Matrix3d& estimated,
                               double seconds) {
-  // What the camera measured is what takes the prediction to the estimate.
+  // The camera's own measurement is what takes the prediction to the estimate.
   Matrix3d known = estimated;
   known.diagonal().array() += Squared(kLeastRotation);
   const Matrix3d innovation = predicted - known;
@@ -169,8 +165,15 @@ void Gyroscope::ObserveChange(const CameraTurn& turn,
   const Eigen::LLT<Matrix3d> of_predicted(predicted);
   if (of_innovation.info() != Eigen::Success || of_predicted.info() != Eigen::Success) return;
   Judge(change.dot(of_innovation.solve(change)));
-  const Eigen::Matrix<double, 7, 3> gain =
-      covariance_ * turn.by_errors.transpose() * of_predicted.solve(Matrix3d::Identity());
+  Learn(turn, of_predicted.solve(Matrix3d::Identity()), change, innovation, seconds);
+}
+
+void Gyroscope::Learn(const CameraTurn& turn,
+                      const Matrix3d& weight,
+                      const Vector3d& change,
+                      const Matrix3d& innovation,
+                      double seconds) {
+  const Eigen::Matrix<double, 7, 3> gain = covariance_ * turn.by_errors.transpose() * weight;
   errors_ += gain * change;
   covariance_ -= gain * innovation * gain.transpose();
   Grow(seconds);

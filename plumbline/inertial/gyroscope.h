@@ -17,16 +17,16 @@
 
 namespace plumbline {
 
-// What is not known exactly of a gyroscope at a camera: [bias, place, clock]. Bias in rad/s along
-// the sensor's axes; place as the rotation vector in the camera that corrects the calibration's
-// rotation; clock in seconds as InertialCalibration::time_offset.
+// Errors of a gyroscope at a camera: [bias, place, clock]. Bias in rad/s along the sensor's axes;
+// place as the rotation vector in the camera that corrects the calibration's rotation; clock in
+// seconds as InertialCalibration::time_offset.
 using GyroscopeErrors = Vector7d;
 using Matrix37d = Eigen::Matrix<double, 3, 7>;
 
 // The turn of a camera between two frames a and b by a gyroscope.
 struct CameraTurn {
   Eigen::Quaterniond b_from_a = Eigen::Quaterniond::Identity();
-  // Of the left perturbation of b_from_a: noise, gaps and what is not known of the sensor.
+  // Covariance of the left perturbation of b_from_a: noise, gaps, errors of the sensor.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();  // the part of it without the errors
   Matrix37d by_errors = Matrix37d::Zero();              // derivative of the left perturbation
@@ -83,6 +83,13 @@ class Gyroscope {
  private:
   std::vector<InertialSample> Between(std::int64_t from_ns, std::int64_t to_ns) const;
   void Judge(double chi2);
+  // Updates the errors by a change of the predicted turn. `weight` is the inverse of the covariance
+  // of the prediction, `innovation` the covariance of the change.
+  void Learn(const CameraTurn& turn,
+             const Eigen::Matrix3d& weight,
+             const Eigen::Vector3d& change,
+             const Eigen::Matrix3d& innovation,
+             double seconds);
   void Grow(double seconds);
 
   InertialNoise noise_;
