@@ -66,6 +66,9 @@ InertialInput OpenInertial(const CommandLine& line, const Dataset& dataset) {
     }
     return input;
   }
+  for (const std::string& note : recording->notes) {
+    input.notes.push_back("inertial sensor: " + note);
+  }
   const InertialCheck check = CheckInertial(recording->ordered, recording->calibration);
   const std::vector<std::string> faults = InertialFaults(check, recording->calibration);
   const bool wrong_units = check.rates_in_degrees;
@@ -77,8 +80,7 @@ InertialInput OpenInertial(const CommandLine& line, const Dataset& dataset) {
   }
   if (wrong_units) return input;
   if (check.saturated_rates > 0) {
-    if (!recording->calibration.noise) recording->calibration.noise.emplace();
-    double& range = recording->calibration.noise->gyroscope_range;
+    double& range = recording->calibration.range.gyroscope;
     range = std::min(range, check.largest_rate);
   }
   input.recording = std::make_shared<const InertialRecording>(*std::move(recording));

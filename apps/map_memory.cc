@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/map_memory.h"
 
+#include "plumbline/base/heap_bytes.h"
+
 namespace plumbline {
 namespace {
-
-template <class T>
-std::size_t HeapBytes(const std::vector<T>& items) {
-  return items.capacity() * sizeof(T);
-}
 
 // Pages of pointers to the entries.
 template <class Id, class T>

@@ -266,7 +266,11 @@ std::string MapInfoJson(const std::filesystem::path& path, const SavedAtlas& sav
                {"maps", Json::array()}};
   for (const Map* map : MapsOf(saved.atlas)) json["maps"].push_back(MapJson(c, *map));
   if (memory) {
-    for (const MemoryOfKind& part : MemoryOf(saved.atlas)) json["memory"][part.kind] = part.bytes;
+    for (const MemoryOfKind& part : MemoryOf(saved.atlas)) {
+      std::string key = part.kind + "_bytes";
+      std::replace(key.begin(), key.end(), ' ', '_');
+      json["memory"][key] = part.bytes;
+    }
   }
   // A path need not be UTF-8; invalid bytes become replacement characters.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const InputFolder folder;
   const std::string_view text = AsText(data, size);
   try {
-    const auto samples = ReadInertialRows(folder.Write("imu.csv", text));
+    const auto samples = ReadInertialRows(folder.Write("imu.csv", text)).samples;
     (void)InertialFaults(CheckInertial(InOrderOfTime(samples), {}), {});
   } catch (const InputError&) {
   }

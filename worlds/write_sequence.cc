@@ -164,8 +164,8 @@ InertialCalibration InertialOf(const SyntheticSequence& sequence) {
   noise.gyroscope_random_walk = model.gyroscope_walk;
   noise.accelerometer_noise_density = model.accelerometer_density;
   noise.accelerometer_random_walk = model.accelerometer_walk;
-  if (faults.rate_range > 0) noise.gyroscope_range = faults.rate_range;
-  if (faults.force_range > 0) noise.accelerometer_range = faults.force_range;
+  if (faults.rate_range > 0) calibration.range.gyroscope = faults.rate_range;
+  if (faults.force_range > 0) calibration.range.accelerometer = faults.force_range;
   calibration.noise = noise;
   return calibration;
 }

@@ -72,6 +72,7 @@ std::optional<double> MissedOver(std::span<const InertialSample> samples) {
 Gyroscope::Gyroscope(const InertialCalibration& calibration,
                      const Eigen::Quaterniond& rectified_from_left)
     : noise_(calibration.noise.value_or(InertialNoise{})),
+      range_(calibration.range),
       time_offset_(calibration.time_offset.value_or(0)) {
   PLUMBLINE_CHECK(calibration.imu_from_left.has_value(), "a gyroscope at an unknown place");
   imu_from_camera_ =
@@ -116,7 +117,7 @@ std::optional<CameraTurn> Gyroscope::Turn(std::int64_t from_ns, std::int64_t to_
   const auto offset =
       static_cast<std::int64_t>(std::llround((time_offset_ + errors_[6]) * kNsPerSecond));
   const std::vector<InertialSample> samples = Between(from_ns + offset, to_ns + offset);
-  if (samples.size() < 2 || IsClipped(samples, noise_.gyroscope_range)) return std::nullopt;
+  if (samples.size() < 2 || IsClipped(samples, range_.gyroscope)) return std::nullopt;
   const auto missed = MissedOver(samples);
   if (!missed) return std::nullopt;
   const InertialBias bias{errors_.head<3>(), Vector3d::Zero()};

@@ -93,6 +93,7 @@ class Gyroscope {
   void Grow(double seconds);
 
   InertialNoise noise_;
+  InertialRange range_;
   Eigen::Quaterniond imu_from_camera_;  // of the calibration
   double time_offset_ = 0;              // of the calibration, 0 if it tells none
   std::vector<InertialSample> samples_;

@@ -16,15 +16,19 @@ struct InertialNoise {
   double gyroscope_random_walk = 1.9393e-5;     // rad/s^2/sqrt(Hz)
   double accelerometer_noise_density = 2.0e-3;  // m/s^2/sqrt(Hz)
   double accelerometer_random_walk = 3.0e-3;    // m/s^3/sqrt(Hz)
-  // Largest magnitude that an axis can measure; infinite if unknown.
-  double gyroscope_range = std::numeric_limits<double>::infinity();      // rad/s
-  double accelerometer_range = std::numeric_limits<double>::infinity();  // m/s^2
+};
+
+// Largest magnitude that an axis can measure; infinite if unknown.
+struct InertialRange {
+  double gyroscope = std::numeric_limits<double>::infinity();      // rad/s
+  double accelerometer = std::numeric_limits<double>::infinity();  // m/s^2
 };
 
 // What is known of an inertial sensor that is fixed to the left camera; nullopt what is not.
 struct InertialCalibration {
   std::optional<Rigid3> imu_from_left;  // left camera as delivered, before rectification
   std::optional<InertialNoise> noise;
+  InertialRange range;
   // Seconds: stamp of the sensor's clock = stamp of the camera's clock + time_offset, the sign of
   // Kalibr's timeshift_cam_imu.
   std::optional<double> time_offset;

@@ -200,13 +200,14 @@ InertialCheck CheckInertial(const OrderedSamples& ordered, const InertialCalibra
   check.repeated = ordered.repeated;
   CheckTimes(samples, check);
   if (samples.size() < 2) return check;
-  const InertialNoise noise = calibration.noise.value_or(InertialNoise{});
   check.largest_rate = LargestOf(samples, &InertialSample::angular_rate);
   check.largest_force = LargestOf(samples, &InertialSample::specific_force);
   check.saturated_rates = SaturatedOf(
-      samples, &InertialSample::angular_rate, noise.gyroscope_range, check.largest_rate);
-  check.saturated_forces = SaturatedOf(
-      samples, &InertialSample::specific_force, noise.accelerometer_range, check.largest_force);
+      samples, &InertialSample::angular_rate, calibration.range.gyroscope, check.largest_rate);
+  check.saturated_forces = SaturatedOf(samples,
+                                       &InertialSample::specific_force,
+                                       calibration.range.accelerometer,
+                                       check.largest_force);
   CheckRest(samples, check);
   CheckUnits(samples, check);
   return check;

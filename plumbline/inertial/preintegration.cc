@@ -141,7 +141,8 @@ std::optional<Preintegral> Preintegrate(std::span<const InertialSample> samples,
                                         std::int64_t from_ns,
                                         std::int64_t to_ns,
                                         const InertialBias& bias,
-                                        const InertialNoise& noise) {
+                                        const InertialNoise& noise,
+                                        const InertialRange& range) {
   if (samples.size() < 2 || from_ns >= to_ns) return std::nullopt;
   if (samples.front().stamp_ns > from_ns || samples.back().stamp_ns < to_ns) return std::nullopt;
   const double interval = MedianInterval(samples);
@@ -163,9 +164,9 @@ std::optional<Preintegral> Preintegrate(std::span<const InertialSample> samples,
     step.force0 = begin.specific_force - bias.accelerometer;
     step.force1 = end.specific_force - bias.accelerometer;
     step.dt = Seconds(end.stamp_ns - begin.stamp_ns);
-    step.gyroscope_factor = NoiseFactor(a.angular_rate, b.angular_rate, noise.gyroscope_range, gap);
+    step.gyroscope_factor = NoiseFactor(a.angular_rate, b.angular_rate, range.gyroscope, gap);
     step.accelerometer_factor =
-        NoiseFactor(a.specific_force, b.specific_force, noise.accelerometer_range, gap);
+        NoiseFactor(a.specific_force, b.specific_force, range.accelerometer, gap);
     integrator.Take(step);
     if (!first) first = step;
   }

@@ -60,7 +60,8 @@ std::optional<Preintegral> Preintegrate(std::span<const InertialSample> samples,
                                         std::int64_t from_ns,
                                         std::int64_t to_ns,
                                         const InertialBias& bias,
-                                        const InertialNoise& noise);
+                                        const InertialNoise& noise,
+                                        const InertialRange& range = {});
 
 // Returns the preintegral at another bias, to first order. Its derivatives and its covariance stay
 // those of the former bias. The error is of second order: for 1 s, biases that differ by 0.01 rad/s

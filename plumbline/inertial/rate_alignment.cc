@@ -126,6 +126,16 @@ double BestOffset(const std::vector<Turn>& turns,
   return best;
 }
 
+// The 16 numbers of a motion as in a camera file.
+std::string RowsOf(const Rigid3& motion) {
+  const Eigen::Matrix4d matrix = motion.Matrix();
+  std::string rows;
+  for (int i = 0; i < 16; ++i) {
+    rows += fmt::format("{}{:.6g}", i == 0 ? "" : ", ", matrix(i / 4, i % 4));
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::optional<RateAlignment> AlignRates(const Trajectory& camera,
@@ -178,17 +188,13 @@ std::vector<std::string> AlignmentFaults(const RateAlignment& alignment,
   if (calibration.imu_from_left) {
     const double angle =
         AngularDistance(calibration.imu_from_left->rotation, alignment.imu_from_camera);
-    const Matrix3d R = alignment.imu_from_camera.toRotationMatrix();
     if (angle > std::max(kLeastAngle, kDeviations * alignment.rotation_sigma)) {
-      std::string rows;
-      for (int i = 0; i < 9; ++i) {
-        rows += fmt::format("{}{:.4f}", i == 0 ? "" : ", ", R(i / 3, i % 3));
-      }
+      const Rigid3 right{alignment.imu_from_camera, calibration.imu_from_left->translation};
       faults.push_back(fmt::format(
-          "imu_from_left is turned by {:.1f} degrees against what camera and gyroscope measured: "
-          "its rotation would be [{}]",
+          "imu_from_left is turned by {:.1f} degrees against what camera and gyroscope measured; "
+          "with the rotation measured it would be imu_from_left: [{}]",
           angle / kDegree,
-          rows));
+          RowsOf(right)));
     }
   }
   const double of_file = calibration.time_offset.value_or(0);

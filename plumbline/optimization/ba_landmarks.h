@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/heap_bytes.h"
 #include "plumbline/base/statistics.h"
 #include "plumbline/optimization/ba_terms.h"
 #include "plumbline/optimization/schur_solver.h"
@@ -95,10 +96,6 @@ class BaLandmarks {
  private:
   static constexpr double kOwnLambda = 1e-3;  // initial damping of a landmark moved on its own
   static constexpr double kNegligible = 1e-6;
-  template <class T>
-  static std::size_t HeapBytes(const std::vector<T>& items) {
-    return items.capacity() * sizeof(T);
-  }
   // The largest part of the memory of an adjustment, thus in single precision.
   using KeptCoupling = Coupling<Kind::kDof, float>;
   struct Packed {

@@ -27,10 +27,10 @@ namespace plumbline {
 
 // What a run did with the gyroscope of its inertial sensor, and found out about it (Gyroscope).
 struct InertialResult {
-  std::int64_t turns = 0;         // between frames, measured by camera and gyroscope
-  std::int64_t contradicted = 0;  // of them, while the sensor was put aside
-  GyroscopeErrors errors = GyroscopeErrors::Zero();  // beside the calibration
-  GyroscopeErrors sigmas = GyroscopeErrors::Zero();  // their deviations
+  std::int64_t turns = 0;         // turns between frames that both camera and gyroscope measured
+  std::int64_t contradicted = 0;  // those of them while the sensor was put aside
+  GyroscopeErrors errors = GyroscopeErrors::Zero();  // what the calibration lacks
+  GyroscopeErrors sigmas = GyroscopeErrors::Zero();  // deviations of the errors
 };
 
 // Returns the pose world_from_camera of the left camera as delivered (before rectification), from

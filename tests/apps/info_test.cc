@@ -125,7 +125,7 @@ TEST(Info, TellsThatSamplesCannotBeUsed) {
   const std::string message =
       rows +
       ":1: expected a time stamp, three rates in rad/s and three forces in m/s^2, found 3 "
-      "columns";
+      "columns (1 of 1 rows are no samples)";
   EXPECT_THAT(Info({path}), HasSubstr("imu           cannot be used: " + message));
   EXPECT_EQ(MessageOf([&] { InfoCommand(std::vector<std::string>{path, "--imu", imu}); }), message);
 }

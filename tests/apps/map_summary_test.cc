@@ -125,12 +125,16 @@ TEST(MapInfo, TellsTheMemoryByKindWhereAsked) {
     features += keyframe.frame.features().points.size();
   }
   for (const auto& [id, point] : map.points()) observations += point.observations.size();
-  for (const auto& part : memory) all += part.get<std::size_t>();
-  const std::size_t bytes = memory["point features"];
+  for (const auto& [key, part] : memory.items()) {
+    EXPECT_EQ(key.find(' '), std::string::npos);
+    EXPECT_THAT(key, EndsWith("_bytes"));
+    all += part.get<std::size_t>();
+  }
+  const std::size_t bytes = memory["point_features_bytes"];
   EXPECT_GE(bytes, features * sizeof(PointFeature));
   EXPECT_LE(bytes, 2 * features * (sizeof(PointFeature) + sizeof(std::optional<Disparity>)));
-  EXPECT_EQ(memory["points"], map.points().size() * sizeof(MapPoint));
-  EXPECT_GE(memory["observations"].get<std::size_t>(),
+  EXPECT_EQ(memory["points_bytes"], map.points().size() * sizeof(MapPoint));
+  EXPECT_GE(memory["observations_bytes"].get<std::size_t>(),
             observations * sizeof(Observations::value_type));
   const std::string table = MapInfoTable(file, saved, true);
   EXPECT_THAT(table, HasSubstr("  point features "));

@@ -106,7 +106,7 @@ TEST(CheckInertial, TellsSaturation) {
   EXPECT_NE(OnlyFaultOf(clipped).find("samples at the gyroscope's range; the largest rate is 0.4"),
             std::string::npos);
   InertialCalibration narrow = Euroc();
-  narrow.noise->accelerometer_range = 10;
+  narrow.range.accelerometer = 10;
   EXPECT_NE(OnlyFaultOf(HandHeld(), narrow).find("samples at the accelerometer's range"),
             std::string::npos);
 }

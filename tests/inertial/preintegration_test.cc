@@ -29,8 +29,9 @@ Preintegral Between(const Samples& samples,
                     std::int64_t from = kFrom,
                     std::int64_t to = kTo,
                     const InertialBias& bias = {},
-                    const InertialNoise& noise = {}) {
-  const auto result = Preintegrate(samples, from, to, bias, noise);
+                    const InertialNoise& noise = {},
+                    const InertialRange& range = {}) {
+  const auto result = Preintegrate(samples, from, to, bias, noise, range);
   EXPECT_TRUE(result.has_value());
   return result.value_or(Preintegral{});
 }
@@ -192,11 +193,11 @@ TEST(Preintegrate, NoiseGrowsOverAGapAndWhereTheRangeIsReached) {
   gap.erase(gap.begin() + 60, gap.begin() + 160);
   // Half a second at 100 times the variance, and half a second as it is.
   EXPECT_NEAR(sigma(Between(gap)) / whole, std::sqrt(0.5 * 101 + 0.5), 0.3);
-  InertialNoise clipped;
-  clipped.gyroscope_range = 0.69;
-  EXPECT_GT(sigma(Between(samples, kFrom, kTo, {}, clipped)), 10 * whole);
-  clipped.gyroscope_range = 2;
-  EXPECT_EQ(sigma(Between(samples, kFrom, kTo, {}, clipped)), whole);
+  InertialRange range;
+  range.gyroscope = 0.69;
+  EXPECT_GT(sigma(Between(samples, kFrom, kTo, {}, {}, range)), 10 * whole);
+  range.gyroscope = 2;
+  EXPECT_EQ(sigma(Between(samples, kFrom, kTo, {}, {}, range)), whole);
 }
 
 TEST(Preintegrate, NeedsSamplesAroundBothStamps) {

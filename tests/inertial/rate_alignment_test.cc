@@ -10,6 +10,7 @@
 #include "tests/support/random_geometry.h"
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -81,7 +82,22 @@ TEST(AlignmentFaults, NamesWhatIsRight) {
     calibration.imu_from_left->rotation = kMount * ExpSo3({0, degrees * kDegree, 0});
     const auto faults = AlignmentFaults(*found, calibration);
     ASSERT_EQ(faults.size(), 1U);
-    EXPECT_NE(faults[0].find("its rotation would be ["), std::string::npos);
+    // All 16 numbers, as the key takes them.
+    const std::string key = "imu_from_left: [";
+    const std::size_t at = faults[0].find(key);
+    ASSERT_NE(at, std::string::npos) << faults[0];
+    std::istringstream numbers(faults[0].substr(at + key.size()));
+    Eigen::Matrix4d matrix;
+    for (int i = 0; i < 16; ++i) {
+      char separator = 0;
+      ASSERT_TRUE(numbers >> matrix(i / 4, i % 4) >> separator);
+      EXPECT_EQ(separator, i < 15 ? ',' : ']');
+    }
+    const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+    EXPECT_LT(AngularDistance(Eigen::Quaterniond(rotation), kMount), 0.3 * kDegree);
+    EXPECT_LT((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-4);
+    EXPECT_EQ(matrix.col(3), Eigen::Vector4d(0.1, 0, 0, 1));
+    EXPECT_EQ(matrix.row(3), Eigen::RowVector4d(0, 0, 0, 1));
   }
   calibration.imu_from_left.reset();
   calibration.time_offset = -0.01;

@@ -117,7 +117,7 @@ TEST(ParseCamera, BadFilesAreNamedByLineAndKey) {
       {mono + pair, "right_from_left: expected a camera `right` with it"},
       {mono + "right: {size: [640, 480], intrinsics: [500, 500, 1, 1]}\n",
        "c.yaml:4: right: expected right_from_left"},
-      {mono + "right: 5\n", "c.yaml:4: right: expected a group of keys"},
+      {mono + "right: 5\n", "c.yaml:4: right: expected a group of keys, found '5'"},
       {mono + "right:\n  siez: [640, 480]\n", "c.yaml:5: unknown key 'right.siez'"},
       {mono + "right:\n  size: [640, 480]\n" + pair, "right.intrinsics: expected 4 numbers"},
       {mono + "body_from_left: [2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n",

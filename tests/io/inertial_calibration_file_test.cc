@@ -60,8 +60,16 @@ TEST(ParseInertialCalibration, ReadsASectionOfOurs) {
   ExpectTheNoise(read);
   EXPECT_EQ(read->time_offset, -0.003);
   EXPECT_EQ(read->rate_hz, 200);
-  EXPECT_EQ(read->noise->gyroscope_range, 17);
-  EXPECT_TRUE(std::isinf(read->noise->accelerometer_range));
+  EXPECT_EQ(read->range.gyroscope, 17);
+  EXPECT_TRUE(std::isinf(read->range.accelerometer));
+}
+
+TEST(ParseInertialCalibration, NeedsNoNumberBesideAnother) {
+  const auto range = Parse("imu:\n  gyroscope_range: 17\n");
+  ASSERT_TRUE(range);
+  EXPECT_EQ(range->range.gyroscope, 17);
+  EXPECT_FALSE(range->noise);
+  EXPECT_EQ(Parse("imu:\n  accelerometer_range: 157\n")->range.accelerometer, 157);
 }
 
 TEST(ParseInertialCalibration, ReadsChainsOfKalibrAndOpenVins) {
@@ -121,8 +129,9 @@ TEST(ParseInertialCalibration, RefusesByName) {
       {imu + "  time_offset: 3000\n",
        "f.yaml:2: imu.time_offset: expected from -10 to 10 s, found 3000"},
       {imu + "  rate_hz: 0\n", "f.yaml:2: imu.rate_hz: expected from 1 to 100000 Hz, found 0"},
-      {imu + "  gyroscope_range: 17\n",
-       "f.yaml:2: imu.gyroscope_range: expected the densities of the noise with it, found none"}};
+      {"imu: 5\n", "f.yaml:1: imu: expected a group of keys, found '5'"},
+      {imu + "  gyroscope_range: 0\n",
+       "f.yaml:2: imu.gyroscope_range: expected from 0.1 to 1000 rad/s, found 0"}};
   for (const auto& [yaml, message] : cases) {
     EXPECT_EQ(MessageOf([&] { Parse(yaml); }), message) << yaml;
   }
@@ -149,14 +158,14 @@ TEST(FormatInertialCalibration, IsReadBackTheSame) {
   InertialCalibration calibration;
   calibration.imu_from_left = RandomRigid(rng);
   calibration.noise = InertialNoise{};
-  calibration.noise->accelerometer_range = 156.9;
+  calibration.range.accelerometer = 156.9;
   calibration.time_offset = 0.1 / 3;
   calibration.rate_hz = 199.7;
   const auto read = Parse(FormatInertialCalibration(calibration));
   ASSERT_TRUE(read && read->imu_from_left && read->noise);
   EXPECT_LT((read->imu_from_left->Matrix() - calibration.imu_from_left->Matrix()).norm(), 1e-14);
   EXPECT_EQ(read->noise->gyroscope_noise_density, calibration.noise->gyroscope_noise_density);
-  EXPECT_EQ(read->noise->accelerometer_range, 156.9);
+  EXPECT_EQ(read->range.accelerometer, 156.9);
   EXPECT_EQ(read->time_offset, calibration.time_offset);
   EXPECT_EQ(read->rate_hz, 199.7);
 }
@@ -166,10 +175,14 @@ TEST(Completed, FillsInWhatIsNotTold) {
   over.time_offset = 1;
   under.time_offset = 2;
   under.rate_hz = 3;
+  over.range.gyroscope = 17;
+  under.range = {35, 157};
   const InertialCalibration all = Completed(over, under);
   EXPECT_EQ(all.time_offset, 1);
   EXPECT_EQ(all.rate_hz, 3);
   EXPECT_FALSE(all.noise);
+  EXPECT_EQ(all.range.gyroscope, 17);
+  EXPECT_EQ(all.range.accelerometer, 157);
 }
 
 TEST(ParseCamera, AcceptsASectionOfAnInertialSensor) {

@@ -51,8 +51,10 @@ void AddSample(BagWriter& bag,
 
 TEST(ReadInertialRows, ReadsNanosecondsAndSeconds) {
   const ScratchFolder folder;
-  const auto samples = ReadInertialRows(
-      folder.Write("a.csv", kHeader + Row(1403636579763555584, 0.5, 9.8) + "1.5,1,2,3,4,5,6\r\n"));
+  const auto samples = ReadInertialRows(folder.Write("a.csv",
+                                                     kHeader + Row(1403636579763555584, 0.5, 9.8) +
+                                                         "1.5,1,2,3,4,5,6\r\n"))
+                           .samples;
   ASSERT_EQ(samples.size(), 2U);
   EXPECT_EQ(samples[0].stamp_ns, 1403636579763555584);
   EXPECT_EQ(samples[0].angular_rate, Eigen::Vector3d(0.5, 0, 0));
@@ -61,7 +63,7 @@ TEST(ReadInertialRows, ReadsNanosecondsAndSeconds) {
   EXPECT_EQ(samples[1].specific_force, Eigen::Vector3d(4, 5, 6));
 }
 
-TEST(ReadInertialRows, RefusesMalformedRowsByTheirLine) {
+TEST(ReadInertialRows, LeavesOutMalformedRowsAndTellsTheFirst) {
   const ScratchFolder folder;
   struct Case {
     std::string row, message;
@@ -74,11 +76,23 @@ TEST(ReadInertialRows, RefusesMalformedRowsByTheirLine) {
        "'x'"},
       {"7,1,2,3,4,5,1e9\n", "expected rates in rad/s and forces in m/s^2, found '1e9'"}};
   for (const auto& [row, message] : cases) {
-    const auto file = folder.Write("a.csv", kHeader + Row(1, 0, 9.8) + row);
-    EXPECT_EQ(MessageOf([&] { ReadInertialRows(file); }), file.string() + ":3: " + message);
+    const auto file = folder.Write("a.csv", kHeader + Row(1, 0, 9.8) + row + Row(9, 0, 9.8));
+    const InertialRows rows = ReadInertialRows(file);
+    EXPECT_EQ(rows.samples.size(), 2U);
+    EXPECT_EQ(rows.unusable, 1U);
+    EXPECT_EQ(rows.first_fault, file.string() + ":3: " + message);
   }
-  const auto nan = folder.Write("a.csv", Row(1, 0, 9.8) + "2,nan,0,0,0,0,0\n");
-  EXPECT_TRUE(MessageOf([&] { ReadInertialRows(nan); }).starts_with(nan.string() + ":2: "));
+  const std::string bad = "2,nan,0,0,0,0,0\n3,1,2,3,4,5,inf\n";
+  const auto half = folder.Write("a.csv", Row(1, 0, 9.8) + bad + Row(4, 0, 9.8));
+  const InertialRows rows = ReadInertialRows(half);
+  EXPECT_EQ(rows.samples.size(), 2U);
+  EXPECT_EQ(rows.unusable, 2U);
+  const std::string first = half.string() + ":2: expected a number in column 2, found 'nan'";
+  EXPECT_EQ(rows.first_fault, first);
+  EXPECT_EQ(OpenInertialAlone(half, {}).notes,
+            std::vector<std::string>{"2 of 4 rows are no samples and are left out; " + first});
+  const auto most = folder.Write("a.csv", Row(1, 0, 9.8) + bad);
+  EXPECT_EQ(MessageOf([&] { ReadInertialRows(most); }), first + " (2 of 3 rows are no samples)");
   const auto empty = folder.Write("a.csv", kHeader);
   EXPECT_EQ(MessageOf([&] { ReadInertialRows(empty); }),
             empty.string() + ": expected samples, found no rows");
@@ -145,6 +159,13 @@ TEST(FindInertial, ReadsTheTopicOfABag) {
   EXPECT_EQ(found->source, "/imu0 of " + file.string());
   EXPECT_EQ(found->notes,
             (std::vector<std::string>{"1 messages of /imu0 are no measurements and are left out"}));
+  BagWriter broken = StereoBag();
+  for (int i = 0; i < 2; ++i) AddSample(broken, "/imu0", i * 5'000'000 + 1, 0.1 * i + 0.1, 9.8);
+  for (int i = 0; i < 3; ++i) broken.Add("/imu0", "sensor_msgs/Imu", 7 + i, "short");
+  const auto most = folder.Write("most.bag", broken.Finish());
+  EXPECT_EQ(
+      MessageOf([&] { FindInertial(most, DatasetFormat::kBag, {}); }),
+      "/imu0 of " + most.string() + ": expected measurements, found 3 of 5 messages that are none");
   // The images are those of before, also where users name the topic of the sensor.
   EXPECT_EQ(OpenDataset(file, {})->size(), 2U);
   DatasetOptions named;

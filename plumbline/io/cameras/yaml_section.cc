@@ -82,6 +82,13 @@ struct YamlSection::Place {
     return fmt::format("{}:{}", source, line + 1);
   }
 
+  // What is at a key in place of a group or a list, for messages.
+  static std::string FoundAt(const YAML::Node& value) {
+    if (!value.IsDefined()) return "none";
+    if (value.IsScalar()) return InQuotes(value.Scalar());
+    return value.IsSequence() ? "a list" : value.IsMap() ? "a group of keys" : "nothing";
+  }
+
   std::string Scalar(const std::string& key, const YAML::Node& value) const {
     if (!value.IsScalar()) Fail(value, key, "expected one value, found a list or a group");
     return value.Scalar();
@@ -125,14 +132,18 @@ std::string YamlSection::Where(const std::string& key) const {
 }
 
 YamlSection YamlSection::Child(const std::string& key) const {
-  if (!Has(key) || !place_->node[key].IsMap()) Fail(key, "expected a group of keys, found none");
+  if (!IsGroup(key)) {
+    Fail(key, "expected a group of keys, found " + Place::FoundAt(place_->node[key]));
+  }
   return YamlSection(std::make_shared<const Place>(
       Place{place_->node[key], place_->source, place_->prefix + key + "."}));
 }
 
 std::vector<YamlSection> YamlSection::Items(const std::string& key) const {
   const YAML::Node list = place_->node[key];
-  if (!list.IsDefined() || !list.IsSequence()) Fail(key, "expected a list of groups, found none");
+  if (!list.IsDefined() || !list.IsSequence()) {
+    Fail(key, "expected a list of groups, found " + Place::FoundAt(list));
+  }
   std::vector<YamlSection> items;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string name = fmt::format("{}[{}]", key, i);
@@ -158,7 +169,9 @@ std::string YamlSection::Text(const std::string& key) const {
 
 std::vector<std::string> YamlSection::Texts(const std::string& key) const {
   const YAML::Node list = place_->node[key];
-  if (!list.IsDefined() || !list.IsSequence()) Fail(key, "expected a list, found none");
+  if (!list.IsDefined() || !list.IsSequence()) {
+    Fail(key, "expected a list, found " + Place::FoundAt(list));
+  }
   std::vector<std::string> texts;
   for (const YAML::Node& item : list) texts.push_back(place_->Scalar(key, item));
   return texts;

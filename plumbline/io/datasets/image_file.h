@@ -69,7 +69,7 @@ Expected<ColorImage, ImageFailure> ReadColorImage(const std::filesystem::path& p
 // are zero; transparency does not count. Everything else is as in ReadGrayImage.
 Expected<GrayImage, ImageFailure> ReadMask(const std::filesystem::path& path,
                                            std::optional<ImageSize> wanted = std::nullopt);
-// The same for the bytes of a file; `name` is for failures.
+// Decodes the bytes of a file as ReadMask does; `name` is for failures.
 Expected<GrayImage, ImageFailure> DecodeMask(const std::filesystem::path& name,
                                              std::span<const std::uint8_t> bytes,
                                              std::optional<ImageSize> wanted = std::nullopt);
@@ -77,7 +77,7 @@ Expected<GrayImage, ImageFailure> DecodeMask(const std::filesystem::path& name,
 // Returns the brightest level of a PNG or PGM file with one channel of 16 bits; nullopt for any
 // other file, and if it cannot be decoded.
 std::optional<int> BrightestOf16Bits(const std::filesystem::path& path);
-// The same for the bytes of a PNG file, as in a recording.
+// Returns it for the bytes of a PNG file, as in a recording.
 std::optional<int> BrightestOf16Bits(std::span<const std::uint8_t> bytes);
 
 // Decodes a 16-bit depth image of one channel to metres, value / factor; 0 stays 0 (no

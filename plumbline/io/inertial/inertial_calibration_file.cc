@@ -106,10 +106,8 @@ InertialCalibration ReadOwnSection(const YamlSection& imu) {
   calibration.noise = ReadNoise(imu, &Density::name);
   for (const char* key : {"gyroscope_range", "accelerometer_range"}) {
     if (!imu.Has(key)) continue;
-    if (!calibration.noise)
-      imu.Fail(key, "expected the densities of the noise with it, found none");
     const bool gyroscope = key[0] == 'g';
-    (gyroscope ? calibration.noise->gyroscope_range : calibration.noise->accelerometer_range) =
+    (gyroscope ? calibration.range.gyroscope : calibration.range.accelerometer) =
         NumberWithin(imu, key, 0.1, gyroscope ? 1000 : 100'000, gyroscope ? "rad/s" : "m/s^2");
   }
   return calibration;
@@ -218,6 +216,8 @@ InertialCalibration Completed(const InertialCalibration& over, const InertialCal
   if (!all.noise) all.noise = under.noise;
   if (!all.time_offset) all.time_offset = under.time_offset;
   if (!all.rate_hz) all.rate_hz = under.rate_hz;
+  if (std::isinf(all.range.gyroscope)) all.range.gyroscope = under.range.gyroscope;
+  if (std::isinf(all.range.accelerometer)) all.range.accelerometer = under.range.accelerometer;
   return all;
 }
 
@@ -235,11 +235,10 @@ std::string FormatInertialCalibration(const InertialCalibration& calibration) {
   if (calibration.noise) {
     const InertialNoise& noise = *calibration.noise;
     for (const Density& density : kDensities) row(density.name, noise.*density.member);
-    if (std::isfinite(noise.gyroscope_range)) row("gyroscope_range", noise.gyroscope_range);
-    if (std::isfinite(noise.accelerometer_range)) {
-      row("accelerometer_range", noise.accelerometer_range);
-    }
   }
+  const InertialRange& range = calibration.range;
+  if (std::isfinite(range.gyroscope)) row("gyroscope_range", range.gyroscope);
+  if (std::isfinite(range.accelerometer)) row("accelerometer_range", range.accelerometer);
   if (calibration.time_offset) row("time_offset", *calibration.time_offset);
   if (calibration.rate_hz) row("rate_hz", *calibration.rate_hz);
   return out;

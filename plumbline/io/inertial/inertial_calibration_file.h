@@ -23,8 +23,8 @@ namespace plumbline {
 //     accelerometer_random_walk: 3.0e-3     # m/s^3/sqrt(Hz)
 //     time_offset: 0.003                    # s, stamp of the sensor = stamp of the camera + this
 //     rate_hz: 200                          # all of these are optional
-//     gyroscope_range: 17                   # rad/s, with the noise
-//     accelerometer_range: 157              # m/s^2, with the noise
+//     gyroscope_range: 17                   # rad/s
+//     accelerometer_range: 157              # m/s^2
 //
 //   Kalibr's camchain-imucam.yaml, OpenVINS' kalibr_imucam_chain.yaml
 //                 cam0: T_cam_imu (from sensor to camera) or T_imu_cam; timeshift_cam_imu

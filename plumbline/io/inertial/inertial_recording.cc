@@ -140,8 +140,16 @@ const Topic* First(const InertialTopics& topics, bool rate, bool force) {
   return nullptr;
 }
 
+// Notes messages that are left out; refuses a topic where they are the most.
 void AddBroken(const Topic& topic, InertialRecording& recording) {
   if (topic.second.broken == 0) return;
+  const std::size_t all = topic.second.broken + topic.second.samples.size();
+  if (2 * topic.second.broken > all) {
+    throw InputError(fmt::format("{}: expected measurements, found {} of {} messages that are none",
+                                 recording.source,
+                                 topic.second.broken,
+                                 all));
+  }
   recording.notes.push_back(fmt::format("{} messages of {} are no measurements and are left out",
                                         topic.second.broken,
                                         Printable(topic.first)));
@@ -223,8 +231,15 @@ void FindCalibration(const InertialOptions& options,
 
 InertialRecording FromRows(const fs::path& file) {
   InertialRecording recording;
-  recording.ordered = InOrderOfTime(ReadInertialRows(file));
+  const InertialRows rows = ReadInertialRows(file);
+  recording.ordered = InOrderOfTime(rows.samples);
   recording.source = file.string();
+  if (rows.unusable > 0) {
+    recording.notes.push_back(fmt::format("{} of {} rows are no samples and are left out; {}",
+                                          rows.unusable,
+                                          rows.unusable + rows.samples.size(),
+                                          rows.first_fault));
+  }
   return recording;
 }
 
@@ -234,11 +249,24 @@ bool IsImuFolder(const fs::path& path) {
 
 }  // namespace
 
-std::vector<InertialSample> ReadInertialRows(const fs::path& file) {
-  std::vector<InertialSample> samples;
-  for (const TextRow& row : ReadRows(file, ',')) samples.push_back(SampleOf(file, row));
-  if (samples.empty()) throw InputError(file.string() + ": expected samples, found no rows");
-  return samples;
+InertialRows ReadInertialRows(const fs::path& file) {
+  InertialRows rows;
+  for (const TextRow& row : ReadRows(file, ',')) {
+    try {
+      rows.samples.push_back(SampleOf(file, row));
+    } catch (const InputError& fault) {
+      if (rows.unusable == 0) rows.first_fault = fault.what();
+      ++rows.unusable;
+    }
+  }
+  if (rows.unusable > rows.samples.size()) {
+    throw InputError(fmt::format("{} ({} of {} rows are no samples)",
+                                 rows.first_fault,
+                                 rows.unusable,
+                                 rows.unusable + rows.samples.size()));
+  }
+  if (rows.samples.empty()) throw InputError(file.string() + ": expected samples, found no rows");
+  return rows;
 }
 
 std::optional<InertialRecording> FindInertial(const fs::path& path,

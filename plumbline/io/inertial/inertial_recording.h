@@ -32,10 +32,17 @@ struct InertialOptions {
   std::vector<std::string> topics = {};
 };
 
+// Samples of a file, and what of it could not be used.
+struct InertialRows {
+  std::vector<InertialSample> samples;  // in the order of the file
+  std::size_t unusable = 0;             // rows that are no samples and are left out
+  std::string first_fault;              // "FILE:LINE: expected ..., found ..." of the first of them
+};
+
 // Reads rows of STAMP, three rates in rad/s and three forces in m/s^2, separated by commas, as the
-// data.csv of EuRoC's imu0. Stamps are in nanoseconds, or with a decimal point in seconds. The
-// samples are in the order of the file. Throws InputError "FILE:LINE: expected ..., found ...".
-std::vector<InertialSample> ReadInertialRows(const std::filesystem::path& file);
+// data.csv of EuRoC's imu0. Stamps are in nanoseconds, or with a decimal point in seconds. Throws
+// InputError if more rows cannot be used than can.
+InertialRows ReadInertialRows(const std::filesystem::path& file);
 
 // Finds the samples of a sequence: of EuRoC's form mav0/imu0/data.csv, of other folders imu.csv,
 // of a recording the topic of sensor_msgs/Imu, or the two of a gyroscope and an accelerometer that
@@ -46,8 +53,8 @@ std::vector<InertialSample> ReadInertialRows(const std::filesystem::path& file);
 // Calibration, by the first that tells: options.imu, options.camera, a camera file in the folder or
 // beside a file (CameraFileIn), EuRoC's imu0/sensor.yaml with that of cam0.
 //
-// Returns nullopt if there are no samples. Throws InputError for samples and files that are
-// malformed.
+// Samples that cannot be used are left out, with a note. Returns nullopt if there are no samples.
+// Throws InputError where most cannot be used, and for files that are malformed.
 std::optional<InertialRecording> FindInertial(const std::filesystem::path& path,
                                               DatasetFormat format,
                                               const InertialOptions& options);
