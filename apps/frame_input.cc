@@ -3,10 +3,12 @@
 #include "apps/frame_input.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/units.h"
 #include "plumbline/io/live/call_or_abandon.h"
 
 #include <algorithm>
 #include <thread>
+#include <utility>
 #include <variant>
 
 #include <fmt/format.h>
@@ -84,6 +86,7 @@ std::optional<InputFrame> LiveInput::Next(const GoOn& go_on) {
     InputFrame frame = Take(*std::move(event), chosen);
     if (!chosen) continue;
     ++position_;
+    frame.inertial = std::exchange(inertial_, {});
     return frame;
   }
   return std::nullopt;
@@ -97,6 +100,18 @@ void LiveInput::SayWhyMissing(const std::string& why) {
   if (why.empty() || alike_ > 2) return;
   const char* again = "for the same reason; more such frames in succession are not told";
   say_(fmt::format("frame {} skipped: {}: {}", position_, name_, alike_ == 1 ? why : again));
+}
+
+// Takes the samples that came before a frame. Their stamps follow those of the frames. Where these
+// jump back, samples of the clock before would be in the future, and are left out.
+void LiveInput::TakeInertial(std::int64_t source_ns, const StampContinuity::Stamp& stamp) {
+  constexpr std::size_t kMost = 60'000;  // a minute at 1 kHz
+  for (InertialSample sample : source_->TakeInertial()) {
+    if (stamp.jumped_back_ns && sample.stamp_ns > source_ns + kNsPerSecond) continue;
+    sample.stamp_ns += stamp.stamp_ns - source_ns;
+    inertial_.push_back(sample);
+  }
+  if (inertial_.size() > kMost) inertial_.erase(inertial_.begin(), inertial_.end() - kMost);
 }
 
 InputFrame LiveInput::Take(LiveEvent event, bool chosen) {
@@ -122,6 +137,7 @@ InputFrame LiveInput::Take(LiveEvent event, bool chosen) {
         1e-9 * static_cast<double>(*stamp.jumped_back_ns),
         1e-9 * static_cast<double>(stamp.stamp_ns - next.stamp_ns)));
   }
+  TakeInertial(next.stamp_ns, stamp);
   next.stamp_ns = stamp.stamp_ns;
   if (next.frame) next.frame->stamp_ns = stamp.stamp_ns;
   return next;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/image/image.h"
+#include "plumbline/inertial/inertial_sample.h"
 #include "plumbline/io/datasets/dataset.h"
 #include "plumbline/io/datasets/read_ahead.h"
 #include "plumbline/io/live/live_source.h"
@@ -27,6 +28,9 @@ struct InputFrame {
   std::int64_t stamp_ns = 0;
   std::optional<SensorFrame> frame;  // nullopt: it could not be read
   std::string reason;                // then: a word for tables
+  // Of a live source: samples of its inertial sensor since the input frame before, those of frames
+  // that were not selected included.
+  std::vector<InertialSample> inertial = {};
 };
 
 // Source of the frames of a run, one after the other.
@@ -88,6 +92,7 @@ class LiveInput : public FrameInput {
 
  private:
   InputFrame Take(LiveEvent event, bool chosen);
+  void TakeInertial(std::int64_t source_ns, const StampContinuity::Stamp& stamp);
   void SayWhyMissing(const std::string& why);
 
   std::string name_;
@@ -99,6 +104,7 @@ class LiveInput : public FrameInput {
   std::string last_why_;
   std::size_t alike_ = 0;  // successive selected frames with this reason
   StampContinuity continuity_;
+  std::vector<InertialSample> inertial_;  // for the next selected frame
   std::shared_ptr<LiveSource> source_;
 };
 

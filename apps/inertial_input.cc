@@ -9,6 +9,7 @@
 #include "plumbline/inertial/rate_alignment.h"
 
 #include "apps/command_inputs.h"
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -18,92 +19,193 @@
 namespace plumbline {
 namespace {
 
+constexpr std::size_t kMostGiven = 60'000;  // samples for a frame
 constexpr const char* kLeftOut = "the inertial sensor is left out: ";
 
-// Throws InputError for a sensor that cannot be used, or for a --imu FILE without one.
-std::optional<InertialRecording> FindUsable(const CommandLine& line,
-                                            const Dataset& dataset,
-                                            const std::optional<std::string>& file) {
-  const DatasetInfo& info = dataset.info();
-  InertialOptions options{file, line.Value("--camera"), line.Values("--topic")};
-  auto recording = FindInertial(info.path, info.format, options);
-  if (!recording) {
-    if (!file) return std::nullopt;
-    throw InputError(info.path.string() + ": expected samples of an inertial sensor, found none");
-  }
-  if (!recording->calibration.imu_from_left) {
-    throw InputError(recording->source +
+// Throws InputError for a sensor whose place does not say how it is turned against the images.
+void CheckPlace(Rotation rotation, const InertialRecording& recording) {
+  if (!recording.calibration.imu_from_left) {
+    throw InputError(recording.source +
                      ": expected the place of the sensor at the camera (imu_from_left of a camera "
                      "file, T_cam_imu of Kalibr), found none");
   }
-  const Rotation rotation = ReadRotation(line);
   if (rotation != Rotation::kAuto && rotation != Rotation::kNone) {
     throw InputError(
         "--rotate: expected images as delivered, to which the place of an inertial "
         "sensor refers, found " +
         NameOf(rotation));
   }
-  return recording;
+}
+
+// What `find` finds, if --imu asks for a sensor. Throws InputError for one that cannot be used, or
+// none, with a --imu FILE; with auto it is left out with a note.
+template <class Find>
+std::optional<InertialRecording> FindUsable(const InertialRequest& request,
+                                            const std::string& source,
+                                            const Find& find,
+                                            InertialInput& input) {
+  if (!request.used) return std::nullopt;
+  InertialOptions options{request.file, request.camera, request.topics};
+  options.seconds = TurningStretch::kSeconds;
+  try {
+    std::optional<InertialRecording> recording = find(options);
+    if (recording) CheckPlace(request.rotation, *recording);
+    if (!recording && request.required) {
+      throw InputError(source + ": expected samples of an inertial sensor, found none");
+    }
+    if (!recording) {
+      input.notes.push_back("--imu auto: the data have no samples of an inertial sensor");
+    }
+    return recording;
+  } catch (const InputError& error) {
+    if (request.required) throw;
+    input.notes.push_back(kLeftOut + std::string(error.what()));
+    return std::nullopt;
+  }
+}
+
+// Tells what is wrong with the samples, and takes the sensor unless its units are.
+void UseIfSound(InertialRecording recording, InertialInput& input) {
+  for (const std::string& note : recording.notes) {
+    input.notes.push_back("inertial sensor: " + note);
+  }
+  const InertialCheck check = CheckInertial(recording.ordered, recording.calibration);
+  const std::vector<std::string> faults = InertialFaults(check, recording.calibration);
+  const bool wrong_units = check.rates_in_degrees;
+  if (!faults.empty()) {
+    input.notes.push_back(fmt::format("{}{}{}: {}",
+                                      wrong_units ? kLeftOut : "inertial sensor: ",
+                                      recording.source,
+                                      recording.complete ? "" : " (its first ten minutes)",
+                                      fmt::join(faults, "; ")));
+  }
+  if (wrong_units) return;
+  if (check.saturated_rates > 0) {
+    double& range = recording.calibration.range.gyroscope;
+    range = std::min(range, check.largest_rate);
+  }
+  recording.ordered.samples = {};  // the run reads them again, as it needs them
+  input.recording = std::make_shared<const InertialRecording>(std::move(recording));
 }
 
 }  // namespace
 
-InertialInput OpenInertial(const CommandLine& line, const Dataset& dataset) {
-  InertialInput input;
+InertialRequest ReadInertialRequest(const CommandLine& line) {
   const std::string imu = line.Value("--imu").value_or("off");
-  if (imu == "off") return input;
-  const bool wanted = imu != "auto";
-  std::optional<InertialRecording> recording;
-  try {
-    recording = FindUsable(line, dataset, wanted ? std::optional(imu) : std::nullopt);
-  } catch (const InputError& error) {
-    if (wanted) throw;
-    input.notes.push_back(kLeftOut + std::string(error.what()));
-  }
-  if (!recording) {
-    if (input.notes.empty()) {
-      input.notes.push_back("--imu auto: the data have no samples of an inertial sensor");
-    }
-    return input;
-  }
-  for (const std::string& note : recording->notes) {
-    input.notes.push_back("inertial sensor: " + note);
-  }
-  const InertialCheck check = CheckInertial(recording->ordered, recording->calibration);
-  const std::vector<std::string> faults = InertialFaults(check, recording->calibration);
-  const bool wrong_units = check.rates_in_degrees;
-  if (!faults.empty()) {
-    input.notes.push_back(fmt::format("{}{}: {}",
-                                      wrong_units ? kLeftOut : "inertial sensor: ",
-                                      recording->source,
-                                      fmt::join(faults, "; ")));
-  }
-  if (wrong_units) return input;
-  if (check.saturated_rates > 0) {
-    double& range = recording->calibration.range.gyroscope;
-    range = std::min(range, check.largest_rate);
-  }
-  input.recording = std::make_shared<const InertialRecording>(*std::move(recording));
+  const bool is_file = imu != "off" && imu != "auto";
+  return {imu != "off",
+          is_file,
+          is_file ? std::optional(imu) : std::nullopt,
+          line.Value("--camera"),
+          line.Values("--topic"),
+          ReadRotation(line)};
+}
+
+InertialInput OpenInertial(const InertialRequest& request, const Dataset& dataset) {
+  InertialInput input;
+  const DatasetInfo& info = dataset.info();
+  const auto find = [&](const InertialOptions& options) {
+    return FindInertial(info.path, info.format, options);
+  };
+  auto recording = FindUsable(request, info.path.string(), find, input);
+  if (recording) UseIfSound(*std::move(recording), input);
   return input;
+}
+
+InertialInput OpenGivenInertial(const InertialRequest& request,
+                                const Dataset& dataset,
+                                std::vector<InertialSample> samples) {
+  InertialInput input;
+  const auto find = [&](const InertialOptions& options) {
+    return std::optional(DescribeGivenInertial(std::move(samples), dataset.info().path, options));
+  };
+  auto recording = FindUsable(request, "imu", find, input);
+  if (recording) UseIfSound(*std::move(recording), input);
+  return input;
+}
+
+InertialInput OpenLiveInertial(const InertialRequest& request, const LiveSource& source) {
+  InertialInput input;
+  const std::string& name = source.info().name;
+  const auto find = [&](const InertialOptions& options) {
+    return source.HasInertial() ? std::optional(DescribeLiveInertial(name, options)) : std::nullopt;
+  };
+  auto recording = FindUsable(request, name, find, input);
+  if (recording) {
+    input.recording = std::make_shared<const InertialRecording>(*std::move(recording));
+  }
+  return input;
+}
+
+InertialFeed::InertialFeed(const InertialRecording* recording) : recording_(recording) {
+  if (recording_ != nullptr && recording_->open) stream_ = recording_->open();
+}
+
+void InertialFeed::Add(std::span<const InertialSample> samples) {
+  if (recording_ == nullptr) return;
+  for (const InertialSample& sample : samples) {
+    if (order_.Takes(sample.stamp_ns)) waiting_.push_back(sample);
+    if (waiting_.size() > kMostGiven) waiting_.pop_front();
+  }
+}
+
+// Returns the next sample in order of time.
+std::optional<InertialSample> InertialFeed::Next() {
+  while (waiting_.empty() && stream_ != nullptr) {
+    const auto sample = stream_->Next();
+    unusable_ = stream_->unusable();
+    if (!sample) {
+      stream_.reset();
+    } else if (order_.Takes(sample->stamp_ns)) {
+      waiting_.push_back(*sample);
+    }
+  }
+  return waiting_.empty() ? std::nullopt : std::optional(waiting_.front());
 }
 
 std::span<const InertialSample> InertialFeed::UpTo(std::int64_t stamp_ns) {
   constexpr double kMore = 0.02;  // seconds
+  given_.clear();
   if (recording_ == nullptr) return {};
+  last_ns_ = stamp_ns;
   const double offset = recording_->calibration.time_offset.value_or(0) + kMore;
   const auto last = stamp_ns + static_cast<std::int64_t>(offset * kNsPerSecond);
-  const std::vector<InertialSample>& samples = recording_->ordered.samples;
-  const std::size_t first = next_;
-  while (next_ < samples.size() && samples[next_].stamp_ns <= last) ++next_;
-  return std::span(samples).subspan(first, next_ - first);
+  for (auto sample = Next(); sample && sample->stamp_ns <= last; sample = Next()) {
+    if (given_.size() == 2 * kMostGiven) given_.erase(given_.begin(), given_.end() - kMostGiven);
+    given_.push_back(*sample);
+    waiting_.pop_front();
+  }
+  if (given_.size() > kMostGiven) given_.erase(given_.begin(), given_.end() - kMostGiven);
+  stretch_.Add(given_);
+  return given_;
+}
+
+std::span<const InertialSample> InertialFeed::Telling() {
+  UpTo(last_ns_ + kNsPerSecond / 2);
+  return stretch_.best();
 }
 
 std::vector<std::string> InertialNotes(const RunResult& result,
-                                       const InertialRecording& recording) {
+                                       const InertialRecording& recording,
+                                       std::span<const InertialSample> samples,
+                                       const UnusableSamples& unusable) {
   std::vector<std::string> notes;
+  if (unusable.count > 0) {
+    notes.push_back(fmt::format("inertial sensor: {} samples cannot be used and are left out{}{}",
+                                unusable.count,
+                                unusable.first.empty() ? "" : "; the first: ",
+                                unusable.first));
+  }
+  if (!recording.open) {  // of a live source, whose samples were not known before
+    const InertialCheck check = CheckInertial(InOrderOfTime(samples), recording.calibration);
+    const auto faults = InertialFaults(check, recording.calibration);
+    if (!faults.empty()) {
+      notes.push_back(
+          fmt::format("inertial sensor: {}: {}", recording.source, fmt::join(faults, "; ")));
+    }
+  }
   const auto main = result.MainMap();
-  const auto alignment =
-      main ? AlignRates(result.FinalTrajectory(*main), recording.ordered.samples) : std::nullopt;
+  const auto alignment = main ? AlignRates(result.FinalTrajectory(*main), samples) : std::nullopt;
   if (alignment) {
     for (const std::string& fault : AlignmentFaults(*alignment, recording.calibration)) {
       notes.push_back("inertial sensor: " + fault);

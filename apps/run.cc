@@ -212,7 +212,7 @@ DatasetOptions ReadDatasetOptions(const CommandLine& line) {
 }
 
 RunFrames OpenLive(const CommandLine& line, const RunSetup& setup) {
-  for (const char* option : {"--format", "--topic", "--imu", "--ground-truth"}) {
+  for (const char* option : {"--format", "--topic", "--ground-truth"}) {
     if (line.Has(option)) {
       throw InputError(std::string(option) + ": expected a recording, found a live source");
     }
@@ -434,7 +434,9 @@ void RethrowFailures(const Processed& processed, const std::optional<std::string
 
 // Gives the inertial sensor that --imu asks for to the frames and the system.
 InertialInput UseInertial(const CommandLine& line, RunFrames& input, System& system) {
-  InertialInput inertial = input.live ? InertialInput{} : OpenInertial(line, *input.dataset);
+  const InertialRequest request = ReadInertialRequest(line);
+  InertialInput inertial =
+      input.live ? OpenLiveInertial(request, *input.live) : OpenInertial(request, *input.dataset);
   input.inertial = inertial.recording;
   if (input.inertial) system.UseInertial(input.inertial->calibration);
   return inertial;

@@ -179,6 +179,7 @@ class FrameFeed {
       WaitWhilePaused();
       auto next = frames_->Next(go_on);
       if (!next) return;
+      inertial_.Add(next->inertial);
       pipeline_.AddInertial(inertial_.UpTo(next->stamp_ns));
       if (next->frame) {
         CheckPair(position, *next->frame);
@@ -234,7 +235,11 @@ class FrameFeed {
 
   void TellInertial() {
     if (input_.inertial == nullptr) return;
-    for (std::string& note : InertialNotes(result_.result, *input_.inertial)) {
+    UnusableSamples unusable;  // of what was read before the run, they are told
+    if (!input_.inertial->complete) unusable = inertial_.unusable();
+    if (input_.live != nullptr) unusable = input_.live->UnusableInertial();
+    for (std::string& note :
+         InertialNotes(result_.result, *input_.inertial, inertial_.Telling(), unusable)) {
       if (!quiet_) progress_.Say(note);
       result_.notes.push_back(std::move(note));
     }

@@ -15,8 +15,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const InputFolder folder;
   const std::string_view text = AsText(data, size);
   try {
-    const auto samples = ReadInertialRows(folder.Write("imu.csv", text)).samples;
-    (void)InertialFaults(CheckInertial(InOrderOfTime(samples), {}), {});
+    const auto recording = OpenInertialAlone(folder.Write("imu.csv", text), {});
+    (void)InertialFaults(CheckInertial(recording.ordered, {}), {});
   } catch (const InputError&) {
   }
   try {

@@ -16,16 +16,23 @@ double SecondsBetween(const InertialSample& a, const InertialSample& b) {
 
 }  // namespace
 
+bool TimeOrder::Takes(std::int64_t stamp_ns) {
+  if (last_ns_ && stamp_ns <= *last_ns_) {
+    ++(stamp_ns == *last_ns_ ? repeated_ : backward_);
+    return false;
+  }
+  last_ns_ = stamp_ns;
+  return true;
+}
+
 OrderedSamples InOrderOfTime(std::span<const InertialSample> samples) {
   OrderedSamples ordered;
+  TimeOrder order;
   for (const InertialSample& sample : samples) {
-    if (!ordered.samples.empty() && sample.stamp_ns <= ordered.samples.back().stamp_ns) {
-      const bool same = sample.stamp_ns == ordered.samples.back().stamp_ns;
-      ++(same ? ordered.repeated : ordered.backward);
-      continue;
-    }
-    ordered.samples.push_back(sample);
+    if (order.Takes(sample.stamp_ns)) ordered.samples.push_back(sample);
   }
+  ordered.backward = order.backward();
+  ordered.repeated = order.repeated();
   return ordered;
 }
 
@@ -46,21 +53,42 @@ InertialSample SampleBetween(const InertialSample& a,
           (1 - s) * a.specific_force + s * b.specific_force};
 }
 
+void SampleJoiner::Add(std::deque<InertialSample>& to, const InertialSample& sample) {
+  constexpr std::size_t kMostWaiting = 10'000;
+  if (to.size() == kMostWaiting) to.pop_front();
+  to.push_back(sample);
+}
+
+std::optional<InertialSample> SampleJoiner::Take() {
+  while (!fast_.empty()) {
+    const InertialSample sample = fast_.front();
+    while (slow_.size() >= 2 && slow_[1].stamp_ns < sample.stamp_ns) slow_.pop_front();
+    if (slow_.empty()) return std::nullopt;
+    if (slow_[0].stamp_ns > sample.stamp_ns) {
+      fast_.pop_front();
+      continue;
+    }
+    if (slow_.size() < 2) return std::nullopt;
+    fast_.pop_front();
+    const InertialSample other = SampleBetween(slow_[0], slow_[1], sample.stamp_ns);
+    return InertialSample{sample.stamp_ns,
+                          (gyroscope_leads_ ? sample : other).angular_rate,
+                          (gyroscope_leads_ ? other : sample).specific_force};
+  }
+  return std::nullopt;
+}
+
 std::vector<InertialSample> JoinedSamples(std::span<const InertialSample> gyroscope,
                                           std::span<const InertialSample> accelerometer) {
-  const bool gyroscope_leads = MedianInterval(gyroscope) <= MedianInterval(accelerometer);
-  const auto& fast = gyroscope_leads ? gyroscope : accelerometer;
-  const auto& slow = gyroscope_leads ? accelerometer : gyroscope;
+  SampleJoiner joiner(MedianInterval(gyroscope) <= MedianInterval(accelerometer));
   std::vector<InertialSample> joined;
-  std::size_t next = 1;  // of the slower one, the end of the interval around the stamp
-  for (const InertialSample& sample : fast) {
-    while (next < slow.size() && slow[next].stamp_ns < sample.stamp_ns) ++next;
-    if (next >= slow.size()) break;
-    if (slow[next - 1].stamp_ns > sample.stamp_ns) continue;
-    const InertialSample other = SampleBetween(slow[next - 1], slow[next], sample.stamp_ns);
-    joined.push_back({sample.stamp_ns,
-                      (gyroscope_leads ? sample : other).angular_rate,
-                      (gyroscope_leads ? other : sample).specific_force});
+  auto rate = gyroscope.begin();
+  auto force = accelerometer.begin();
+  while (rate != gyroscope.end() || force != accelerometer.end()) {
+    const bool rate_is_next = force == accelerometer.end() ||
+                              (rate != gyroscope.end() && rate->stamp_ns <= force->stamp_ns);
+    rate_is_next ? joiner.AddRates(*rate++) : joiner.AddForces(*force++);
+    while (const auto sample = joiner.Take()) joined.push_back(*sample);
   }
   return joined;
 }

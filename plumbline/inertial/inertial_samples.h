@@ -5,6 +5,9 @@
 #include "plumbline/inertial/inertial_sample.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,14 +20,46 @@ struct OrderedSamples {
   std::size_t repeated = 0;             // left out: their stamp is that of the former sample
 };
 
-// Leaves out samples whose stamp does not increase: which of two is right is not known, and a later
-// stamp that was believed cannot be taken back in a live run.
+// Tells which samples are in order: those whose stamp does not increase are left out. Which of two
+// is right is not known, and a later stamp that was believed cannot be taken back in a live run.
+class TimeOrder {
+ public:
+  // Returns true if the next sample is later than all before; else it is counted.
+  bool Takes(std::int64_t stamp_ns);
+  std::size_t backward() const { return backward_; }
+  std::size_t repeated() const { return repeated_; }
+
+ private:
+  std::optional<std::int64_t> last_ns_;
+  std::size_t backward_ = 0, repeated_ = 0;
+};
+
+// Returns the samples that are in order (TimeOrder).
 OrderedSamples InOrderOfTime(std::span<const InertialSample> samples);
 
 // Joins the samples of a gyroscope (their angular_rate) with those of an accelerometer (their
-// specific_force) that were sampled apart: the slower one, by its median interval, is interpolated
-// linearly at the stamps of the faster one. Stamps without samples of the slower one around them
-// are left out. The stamps of both must increase strictly.
+// specific_force) that are sampled apart, as they come: the slower one is interpolated linearly at
+// the stamps of the faster one. Stamps without samples of the slower one around them are left out.
+class SampleJoiner {
+ public:
+  // gyroscope_leads  the gyroscope is the faster one
+  explicit SampleJoiner(bool gyroscope_leads) : gyroscope_leads_(gyroscope_leads) {}
+  // The stamps of each must increase strictly. At most 10,000 samples of the faster one wait for
+  // the slower one; the oldest are given up.
+  void AddRates(const InertialSample& sample) { Add(gyroscope_leads_ ? fast_ : slow_, sample); }
+  void AddForces(const InertialSample& sample) { Add(gyroscope_leads_ ? slow_ : fast_, sample); }
+  // Returns the next joined sample; nullopt until more samples come.
+  std::optional<InertialSample> Take();
+
+ private:
+  static void Add(std::deque<InertialSample>& to, const InertialSample& sample);
+
+  bool gyroscope_leads_;
+  std::deque<InertialSample> fast_, slow_;
+};
+
+// Joins samples that were taken apart (SampleJoiner); the faster ones have the smaller median
+// interval. The stamps of both must increase strictly.
 std::vector<InertialSample> JoinedSamples(std::span<const InertialSample> gyroscope,
                                           std::span<const InertialSample> accelerometer);
 

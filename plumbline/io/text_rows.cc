@@ -48,27 +48,75 @@ std::optional<int> Digits(std::string_view text, std::size_t first, std::size_t 
   return value;
 }
 
+// Returns the row of a line; nullopt if it is empty or a comment.
+std::optional<TextRow> RowOf(const std::filesystem::path& path,
+                             int number,
+                             std::string_view line,
+                             char separator) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (number == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
+  const std::string_view content = Trim(line);
+  if (content.empty() || content.front() == '#') return std::nullopt;
+  if (content.size() > kLongestLine) {
+    FailAt(path,
+           number,
+           fmt::format("a line of at most {} bytes", kLongestLine),
+           fmt::format("one of {}", content.size()));
+  }
+  return TextRow{number, Split(content, separator)};
+}
+
 }  // namespace
 
 std::vector<TextRow> ReadRows(const std::filesystem::path& path, char separator) {
   const std::string text = ReadInputFile(path);
   std::string_view rest = text;
-  if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // byte order mark
   std::vector<TextRow> rows;
   for (int line = 1; !rest.empty(); ++line) {
     const std::size_t end = rest.find('\n');
-    const std::string_view content = Trim(rest.substr(0, end));
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-    if (content.empty() || content.front() == '#') continue;
-    if (content.size() > kLongestLine) {
-      FailAt(path,
-             line,
-             fmt::format("a line of at most {} bytes", kLongestLine),
-             fmt::format("one of {}", content.size()));
+    if (auto row = RowOf(path, line, rest.substr(0, end), separator)) {
+      rows.push_back(*std::move(row));
     }
-    rows.push_back({line, Split(content, separator)});
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
   }
   return rows;
+}
+
+TextRowReader::TextRowReader(const std::filesystem::path& path, char separator)
+    : path_(path), separator_(separator) {
+  CheckExists(path);
+  if (KindOf(path) != "a file") {
+    throw InputError(path.string() + ": expected a file, found " + KindOf(path));
+  }
+  file_.open(path, std::ios::binary);
+  if (!file_) throw InputError(path.string() + ": cannot be read");
+}
+
+std::optional<TextRow> TextRowReader::Next() {
+  std::string line;
+  while (ReadLine(line)) {
+    if (auto row = RowOf(path_, ++line_, line, separator_)) return row;
+  }
+  return std::nullopt;
+}
+
+// Reads a line without its end, of a longer one than RowOf takes only the beginning.
+bool TextRowReader::ReadLine(std::string& line) {
+  constexpr std::size_t kBlock = std::size_t{1} << 16;
+  line.clear();
+  for (bool any = false;; any = true) {
+    if (next_ == block_.size()) {
+      block_.resize(kBlock);
+      next_ = 0;
+      file_.read(block_.data(), kBlock);
+      block_.resize(static_cast<std::size_t>(file_.gcount()));
+      if (block_.empty()) return any;
+    }
+    const std::size_t end = std::min(block_.find('\n', next_), block_.size());
+    if (line.size() <= kLongestLine) line.append(block_, next_, end - next_);
+    next_ = std::min(end + 1, block_.size());
+    if (end < block_.size()) return true;
+  }
 }
 
 void FailAt(const std::filesystem::path& path,

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,6 +26,25 @@ struct TextRow {
 // Fails (FailAt) at a row of more than kLongestLine bytes.
 constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 std::vector<TextRow> ReadRows(const std::filesystem::path& path, char separator);
+
+// Reads the rows of ReadRows one after the other: holds one of them, whatever the file's size.
+class TextRowReader {
+ public:
+  // Throws InputError where ReadInputFile would, but for the size.
+  TextRowReader(const std::filesystem::path& path, char separator);
+  // Returns the next row; nullopt at the end of the file.
+  std::optional<TextRow> Next();
+
+ private:
+  bool ReadLine(std::string& line);
+
+  std::filesystem::path path_;
+  char separator_;
+  std::ifstream file_;
+  std::string block_;
+  std::size_t next_ = 0;  // in block_
+  int line_ = 0;          // number of the last line
+};
 
 // Throws InputError "path:line: expected ..., found ...".
 [[noreturn]] void FailAt(const std::filesystem::path& path,

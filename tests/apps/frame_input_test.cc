@@ -75,5 +75,44 @@ TEST(LiveInput, SaysNothingOfFramesThatAreNotChosen) {
   EXPECT_TRUE(SaidOf({there, bits, there, bits}, {0, 100, 2}).empty());
 }
 
+// A source with a sample 1 ms before and one at each frame, whose clock is set back by an hour.
+class SourceWithSamples : public LiveSource {
+ public:
+  SourceWithSamples() : LiveSource({}) {}
+
+  LiveEvent Next() override {
+    if (next_ == 8) return SourceEnd{};
+    const std::int64_t stamp_ns = kHour + 10'000'000 * next_ - (next_ >= 4 ? kHour : 0);
+    if (next_ == 4) {  // one more sample of the clock before
+      samples_.push_back({kHour + 39'000'000, {}, {}});
+    }
+    samples_.push_back({stamp_ns - 1'000'000, {}, {}});
+    samples_.push_back({stamp_ns, {}, {}});
+    ++next_;
+    return SensorFrame{stamp_ns, GrayImage(4, 3), {}, {}};
+  }
+  std::vector<InertialSample> TakeInertial() override { return std::exchange(samples_, {}); }
+
+ private:
+  static constexpr std::int64_t kHour = 3'600'000'000'000;
+  std::int64_t next_ = 0;
+  std::vector<InertialSample> samples_;
+};
+
+TEST(LiveInput, SamplesOfFramesThatAreNotChosenGoToTheNextOneAndFollowItsStamps) {
+  LiveInput input(std::make_shared<SourceWithSamples>(), {1, 100, 3}, [](const std::string&) {});
+  std::vector<std::size_t> counts;
+  std::vector<std::int64_t> lead;
+  while (const auto frame = input.Next([] { return true; })) {
+    counts.push_back(frame->inertial.size());
+    for (std::size_t i = 1; i < frame->inertial.size(); ++i) {
+      EXPECT_GT(frame->inertial[i].stamp_ns, frame->inertial[i - 1].stamp_ns);
+    }
+    lead.push_back(frame->stamp_ns - frame->inertial.back().stamp_ns);
+  }
+  EXPECT_THAT(counts, ElementsAre(4U, 6U, 6U));  // of frames 1, 4 and 7
+  EXPECT_THAT(lead, ElementsAre(0, 0, 0));
+}
+
 }  // namespace frame_input_test
 }  // namespace plumbline

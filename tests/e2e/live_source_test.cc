@@ -18,6 +18,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -71,6 +72,75 @@ Outcome RunFed(const ScratchFolder& folder,
   writer.join();
   std::filesystem::remove(pipe);
   return outcome;
+}
+
+// The frames of SentFrames, each behind the samples that a run on the folder gives it.
+std::vector<std::string> SentWithSamples(const std::filesystem::path& sequence) {
+  const std::vector<TextRow> rows = ReadRows(sequence / "mav0/imu0/data.csv", ',');
+  std::vector<std::string> pieces = SentFrames(sequence);
+  std::size_t next = 0;
+  for (std::string& piece : pieces) {
+    constexpr std::int64_t kMore = 20'000'000;
+    const std::int64_t stamp = std::stoll(piece.substr(piece.find(' ') + 1));
+    std::string samples;
+    for (; next < rows.size() && std::stoll(rows[next].fields[0]) <= stamp + kMore; ++next) {
+      samples += fmt::format("imu {}\n", fmt::join(rows[next].fields, " "));
+    }
+    piece.insert(0, samples);
+  }
+  return pieces;
+}
+
+TEST(RunLive, GivesTheBytesOfTheFolderFromAPipeWithAnInertialSensor) {
+  const auto data = FindData("euroc/MH_01_easy_first250");
+  if (!data) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
+  const ScratchFolder folder;
+  // EuRoC's own numbers, in one file for both.
+  const auto imu = folder.Write(
+      "imu.yaml",
+      "imu:\n  imu_from_left: [0.0148655, -0.999881, 0.0041403, -0.0216401, 0.999557, 0.0149672, "
+      "0.025715, -0.0646770, -0.0257744, 0.00375619, 0.999661, 0.00981073, 0, 0, 0, 1]\n"
+      "  gyroscope_noise_density: 1.6968e-04\n  gyroscope_random_walk: 1.9393e-05\n"
+      "  accelerometer_noise_density: 2.0e-3\n  accelerometer_random_walk: 3.0e-3\n"
+      "  rate_hz: 200\n  time_offset: 0\n");
+  std::vector<std::string> pieces = SentWithSamples(*data);
+  pieces.insert(pieces.begin(),
+                "plumbline frames 1\nleft mono8 752 480\nright mono8 752 480\nimu\nend\n");
+  const Outcome fed = RunFed(
+      folder,
+      fmt::format("run - --camera euroc --imu {} --out {}", Quoted(imu), Quoted(folder / "fed")),
+      pieces,
+      std::chrono::milliseconds(0));
+  ASSERT_EQ(fed.code, 0) << fed.err;
+  const auto run = [&](const std::string& name,
+                       const std::string& options,
+                       const std::filesystem::path& sequence) {
+    const Outcome outcome =
+        RunProgram(folder,
+                   fmt::format("run {} --from {} --to {} --camera euroc {} --out {}",
+                               Quoted(sequence),
+                               kFrames.first,
+                               kFrames.second,
+                               options,
+                               Quoted(folder / name)));
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  };
+  run("folder", "--imu " + Quoted(imu), *data);
+  ExpectSameResults(folder / "folder", folder / "fed");
+  const auto summary = nlohmann::json::parse(Contents(folder / "fed/summary.json"));
+  EXPECT_GE(summary["inertial"]["turns"], 15);
+  run("inline", "--mode inline --imu " + Quoted(imu), *data);
+  ExpectSameResults(folder / "folder", folder / "inline");
+  // The sensor makes a difference; off is as if there were none.
+  std::filesystem::create_directories(folder / "without/mav0");
+  for (const char* part : {"cam0", "cam1", "state_groundtruth_estimate0"}) {
+    std::filesystem::create_directory_symlink(*data / "mav0" / part,
+                                              folder / "without/mav0" / part);
+  }
+  run("off", "--imu off", *data);
+  run("none", "--imu auto", folder / "without");
+  ExpectSameResults(folder / "off", folder / "none");
+  EXPECT_NE(Contents(folder / "off/trajectory.txt"), Contents(folder / "folder/trajectory.txt"));
 }
 
 TEST(RunLive, GivesTheBytesOfTheFolderFromAPipe) {

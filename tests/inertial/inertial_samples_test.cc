@@ -57,5 +57,52 @@ TEST(JoinedSamples, LeavesOutStampsThatTheOtherOneDoesNotReach) {
   EXPECT_TRUE(JoinedSamples({}, slow).empty());
 }
 
+TEST(SampleJoiner, JoinsAsTheyComeInWhateverTurn) {
+  const Samples fast = {At(0), At(1), At(2), At(3), At(4), At(5), At(6)};
+  const Samples slow = {At(1, 1), At(3, 3), At(5, 5)};
+  const Samples whole = JoinedSamples(fast, slow);
+  // Those of the slower one come late, or all before.
+  for (const bool late : {true, false}) {
+    SampleJoiner joiner(true);
+    Samples joined;
+    const auto take = [&] {
+      while (const auto sample = joiner.Take()) joined.push_back(*sample);
+    };
+    if (late) {
+      for (const InertialSample& sample : fast) joiner.AddRates(sample);
+      take();
+      EXPECT_TRUE(joined.empty());
+    }
+    for (const InertialSample& sample : slow) joiner.AddForces(sample), take();
+    if (!late) {
+      for (const InertialSample& sample : fast) joiner.AddRates(sample), take();
+    }
+    ASSERT_EQ(joined.size(), whole.size());
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      EXPECT_EQ(joined[i].stamp_ns, whole[i].stamp_ns);
+      EXPECT_EQ(joined[i].specific_force, whole[i].specific_force);
+    }
+  }
+}
+
+TEST(SampleJoiner, GivesUpTheOldestWhereTheSlowerOneIsSilent) {
+  SampleJoiner joiner(true);
+  joiner.AddForces(At(0, 1));
+  for (int i = 1; i <= 25'000; ++i) joiner.AddRates(At(i));
+  joiner.AddForces(At(25'000, 1));
+  std::size_t joined = 0;
+  while (joiner.Take()) ++joined;
+  EXPECT_EQ(joined, 10'000U);
+}
+
+TEST(TimeOrder, CountsWhatIsNotLater) {
+  TimeOrder order;
+  std::vector<bool> taken;
+  for (const int stamp : {-5, 3, 3, 1, 4}) taken.push_back(order.Takes(stamp));
+  EXPECT_EQ(taken, (std::vector<bool>{true, true, false, false, true}));
+  EXPECT_EQ(order.repeated(), 1U);
+  EXPECT_EQ(order.backward(), 1U);
+}
+
 }  // namespace
 }  // namespace plumbline

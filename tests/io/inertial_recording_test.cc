@@ -6,7 +6,7 @@
 
 #include "tests/io/recorded_bag.h"
 #include "tests/io/scratch_folder.h"
-#include "tests/support/mcap_writer.h"
+#include "tests/support/inertial_messages.h"
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,79 +23,36 @@ std::string Row(std::int64_t stamp_ns, double rate, double force) {
          std::to_string(force) + "\n";
 }
 
-// A message whose rates and forces are given along x and z; nullopt: marked as not measured.
-std::string Message(bool cdr,
-                    std::int64_t stamp_ns,
-                    std::optional<double> rate,
-                    std::optional<double> force) {
-  RosFields fields(cdr);
-  fields.Header(stamp_ns, "imu");
-  for (const double q : {0, 0, 0, 1}) fields.F64(q);
-  for (int i = 0; i < 9; ++i) fields.F64(i == 0 ? -1 : 0);
-  const auto vector = [&](double x, double z, bool measured) {
-    for (const double number : {x, 0.0, z}) fields.F64(number);
-    for (int i = 0; i < 9; ++i) fields.F64(i == 0 && !measured ? -1 : 0);
-  };
-  vector(rate.value_or(0), 0, rate.has_value());
-  vector(0, force.value_or(0), force.has_value());
-  return fields.Take();
-}
-
-void AddSample(BagWriter& bag,
-               const std::string& topic,
-               std::int64_t stamp_ns,
-               std::optional<double> rate,
-               std::optional<double> force) {
-  bag.Add(topic, "sensor_msgs/Imu", stamp_ns + 9, Message(false, stamp_ns, rate, force));
-}
-
-TEST(ReadInertialRows, ReadsNanosecondsAndSeconds) {
+TEST(OpenInertialAlone, LeavesOutMalformedRowsAndTellsTheFirst) {
   const ScratchFolder folder;
-  const auto samples = ReadInertialRows(folder.Write("a.csv",
-                                                     kHeader + Row(1403636579763555584, 0.5, 9.8) +
-                                                         "1.5,1,2,3,4,5,6\r\n"))
-                           .samples;
-  ASSERT_EQ(samples.size(), 2U);
-  EXPECT_EQ(samples[0].stamp_ns, 1403636579763555584);
-  EXPECT_EQ(samples[0].angular_rate, Eigen::Vector3d(0.5, 0, 0));
-  EXPECT_EQ(samples[0].specific_force, Eigen::Vector3d(0, 0, 9.8));
-  EXPECT_EQ(samples[1].stamp_ns, 1'500'000'000);
-  EXPECT_EQ(samples[1].specific_force, Eigen::Vector3d(4, 5, 6));
-}
-
-TEST(ReadInertialRows, LeavesOutMalformedRowsAndTellsTheFirst) {
-  const ScratchFolder folder;
-  struct Case {
-    std::string row, message;
-  };
-  const std::vector<Case> cases = {
-      {"1,2,3\n",
-       "expected a time stamp, three rates in rad/s and three forces in m/s^2, found 3 columns"},
-      {"x,1,2,3,4,5,6\n",
-       "expected a time stamp in whole nanoseconds, or in seconds with a decimal point, found "
-       "'x'"},
-      {"7,1,2,3,4,5,1e9\n", "expected rates in rad/s and forces in m/s^2, found '1e9'"}};
-  for (const auto& [row, message] : cases) {
-    const auto file = folder.Write("a.csv", kHeader + Row(1, 0, 9.8) + row + Row(9, 0, 9.8));
-    const InertialRows rows = ReadInertialRows(file);
-    EXPECT_EQ(rows.samples.size(), 2U);
-    EXPECT_EQ(rows.unusable, 1U);
-    EXPECT_EQ(rows.first_fault, file.string() + ":3: " + message);
-  }
   const std::string bad = "2,nan,0,0,0,0,0\n3,1,2,3,4,5,inf\n";
-  const auto half = folder.Write("a.csv", Row(1, 0, 9.8) + bad + Row(4, 0, 9.8));
-  const InertialRows rows = ReadInertialRows(half);
-  EXPECT_EQ(rows.samples.size(), 2U);
-  EXPECT_EQ(rows.unusable, 2U);
-  const std::string first = half.string() + ":2: expected a number in column 2, found 'nan'";
-  EXPECT_EQ(rows.first_fault, first);
-  EXPECT_EQ(OpenInertialAlone(half, {}).notes,
-            std::vector<std::string>{"2 of 4 rows are no samples and are left out; " + first});
-  const auto most = folder.Write("a.csv", Row(1, 0, 9.8) + bad);
-  EXPECT_EQ(MessageOf([&] { ReadInertialRows(most); }), first + " (2 of 3 rows are no samples)");
+  const auto half = folder.Write("a.csv", kHeader + Row(1, 0, 9.8) + bad + Row(4, 0, 9.8));
+  const InertialRecording read = OpenInertialAlone(half, {});
+  EXPECT_EQ(read.ordered.samples.size(), 2U);
+  const std::string first = half.string() + ":3: expected a number in column 2, found 'nan'";
+  EXPECT_EQ(
+      read.notes,
+      std::vector<std::string>{"2 of 4 rows are no samples and are left out; the first: " + first});
+  const auto most = folder.Write("a.csv", kHeader + Row(1, 0, 9.8) + bad);
+  EXPECT_EQ(MessageOf([&] { OpenInertialAlone(most, {}); }),
+            first + " (2 of 3 rows are no samples)");
   const auto empty = folder.Write("a.csv", kHeader);
-  EXPECT_EQ(MessageOf([&] { ReadInertialRows(empty); }),
+  EXPECT_EQ(MessageOf([&] { OpenInertialAlone(empty, {}); }),
             empty.string() + ": expected samples, found no rows");
+}
+
+TEST(OpenInertialAlone, ReadsNoMoreAtOnceThanIsWanted) {
+  const ScratchFolder folder;
+  std::string rows;
+  for (int i = 0; i < 100; ++i) rows += Row(std::int64_t{i} * 100'000'000 + 1, 0, 9.8);
+  const auto file = folder.Write("a.csv", rows);
+  const InertialRecording some = OpenInertialAlone(file, {.seconds = 2});
+  EXPECT_EQ(some.ordered.samples.size(), 21U);
+  EXPECT_FALSE(some.complete);
+  std::size_t all = 0;
+  for (const auto stream = some.open(); stream->Next();) ++all;
+  EXPECT_EQ(all, 100U);
+  EXPECT_TRUE(OpenInertialAlone(file, {}).complete);
 }
 
 TEST(FindInertial, ReadsFoldersAndTheirCalibration) {
@@ -147,7 +104,7 @@ TEST(FindInertial, TurnsThePlacesOfEurocIntoOne) {
 TEST(FindInertial, ReadsTheTopicOfABag) {
   const ScratchFolder folder;
   BagWriter bag = StereoBag();
-  for (int i = 0; i < 5; ++i) AddSample(bag, "/imu0", i * 5'000'000 + 1, 0.1 * i, 9.8);
+  for (int i = 0; i < 5; ++i) AddInertial(bag, "/imu0", i * 5'000'000 + 1, 0.1 * i, 9.8);
   bag.Add("/imu0", "sensor_msgs/Imu", 7, "short");
   const auto file = Write(folder, std::move(bag));
   const auto found = FindInertial(file, DatasetFormat::kBag, {});
@@ -158,14 +115,14 @@ TEST(FindInertial, ReadsTheTopicOfABag) {
   EXPECT_EQ(found->ordered.samples[2].specific_force.z(), 9.8);
   EXPECT_EQ(found->source, "/imu0 of " + file.string());
   EXPECT_EQ(found->notes,
-            (std::vector<std::string>{"1 messages of /imu0 are no measurements and are left out"}));
+            (std::vector<std::string>{"1 of 6 messages of /imu0 are no samples and are left out"}));
   BagWriter broken = StereoBag();
-  for (int i = 0; i < 2; ++i) AddSample(broken, "/imu0", i * 5'000'000 + 1, 0.1 * i + 0.1, 9.8);
+  for (int i = 0; i < 2; ++i) AddInertial(broken, "/imu0", i * 5'000'000 + 1, 0.1 * i + 0.1, 9.8);
   for (int i = 0; i < 3; ++i) broken.Add("/imu0", "sensor_msgs/Imu", 7 + i, "short");
   const auto most = folder.Write("most.bag", broken.Finish());
-  EXPECT_EQ(
-      MessageOf([&] { FindInertial(most, DatasetFormat::kBag, {}); }),
-      "/imu0 of " + most.string() + ": expected measurements, found 3 of 5 messages that are none");
+  EXPECT_EQ(MessageOf([&] { FindInertial(most, DatasetFormat::kBag, {}); }),
+            "/imu0 of " + most.string() +
+                ": expected samples, but 3 of 5 messages of /imu0 are no samples");
   // The images are those of before, also where users name the topic of the sensor.
   EXPECT_EQ(OpenDataset(file, {})->size(), 2U);
   DatasetOptions named;
@@ -177,9 +134,9 @@ TEST(FindInertial, JoinsAGyroscopeAndAnAccelerometerApart) {
   const ScratchFolder folder;
   BagWriter bag = StereoBag();
   for (int i = 0; i <= 40; ++i) {
-    AddSample(bag, "/gyro/sample", i * 2'500'000 + 1, 0.01 * i + 0.01, std::nullopt);
+    AddInertial(bag, "/gyro/sample", i * 2'500'000 + 1, 0.01 * i + 0.01, std::nullopt);
   }
-  for (int i = 0; i <= 10; ++i) AddSample(bag, "/accel/sample", i * 10'000'000 + 1, {}, 9 + i);
+  for (int i = 0; i <= 10; ++i) AddInertial(bag, "/accel/sample", i * 10'000'000 + 1, {}, 9 + i);
   const auto found = FindInertial(Write(folder, std::move(bag)), DatasetFormat::kBag, {});
   ASSERT_TRUE(found);
   ASSERT_EQ(found->ordered.samples.size(), 41U);
@@ -191,8 +148,8 @@ TEST(FindInertial, TakesOneOfSeveralSensors) {
   const ScratchFolder folder;
   BagWriter bag = StereoBag();
   for (int i = 0; i < 5; ++i) {
-    AddSample(bag, "/a/imu", i * 5'000'000 + 1, 0.1, 9.8);
-    AddSample(bag, "/b/imu", i * 5'000'000 + 1, 0.2, 9.8);
+    AddInertial(bag, "/a/imu", i * 5'000'000 + 1, 0.1, 9.8);
+    AddInertial(bag, "/b/imu", i * 5'000'000 + 1, 0.2, 9.8);
   }
   const auto file = Write(folder, std::move(bag));
   const auto first = FindInertial(file, DatasetFormat::kBag, {});

@@ -95,6 +95,30 @@ TEST_F(RawStreams, GiveFramesAsTheyCome) {
   EXPECT_EQ(std::get<SourceEnd>(source->Next()).why, "");
 }
 
+TEST_F(RawStreams, BringSamplesOfAnInertialSensorBetweenTheFrames) {
+  const std::string header = "plumbline frames 1\nleft mono8 4 2\nright bgr8 4 2\nimu\nend\n";
+  const SlowPipe pipe(header + "imu 90 0.1 0.2 0.3 4 5 6\nimu 95 nan 0 0 0 0 9.8\n" +
+                      Frame(100, 'a', 'b') + "imu 140 1 2 3 4 5 9.8\nimu 1\n" + "missing 150\n" +
+                      "imu 160 1 2 3 4 5 6\n");
+  const auto source = OpenRawStream(pipe.read(), Options());
+  EXPECT_TRUE(source->HasInertial());
+  EXPECT_TRUE(std::holds_alternative<SensorFrame>(source->Next()));
+  const auto first = source->TakeInertial();
+  ASSERT_EQ(first.size(), 1U);
+  EXPECT_EQ(first[0].stamp_ns, 90);
+  EXPECT_EQ(first[0].angular_rate, Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(first[0].specific_force, Eigen::Vector3d(4, 5, 6));
+  EXPECT_TRUE(source->TakeInertial().empty());
+  EXPECT_TRUE(std::holds_alternative<MissingFrame>(source->Next()));
+  const auto second = source->TakeInertial();
+  ASSERT_EQ(second.size(), 1U);
+  EXPECT_EQ(second[0].stamp_ns, 140);
+  EXPECT_EQ(source->UnusableInertial().count, 2U);
+  EXPECT_EQ(source->UnusableInertial().first,
+            "standard input: behind 0 frames: expected a number in column 2, found 'nan'");
+  EXPECT_EQ(std::get<SourceEnd>(source->Next()).why, "");
+}
+
 TEST_F(RawStreams, HaveDepth) {
   const std::string depth("\x10\x27\0\0\x10\x27\0\0\x10\x27\0\0\x10\x27\0\0", 16);
   const SlowPipe pipe(kDepthHeader + "frame 5\n" + depth + "abcdefgh");
@@ -134,7 +158,7 @@ TEST_F(RawStreams, NameWhatIsWrong) {
   const std::string first = "plumbline frames 1\n";
   EXPECT_THAT(Fault(first + "end\n"), HasSubstr("expected a left image in the header"));
   EXPECT_THAT(Fault(first + "left mono8 4 2\nleft mono8 4 2\n"),
-              HasSubstr("standard input:3: expected 'left', 'right' or 'depth', each once"));
+              HasSubstr("standard input:3: expected 'left', 'right', 'depth' or 'imu', each once"));
   EXPECT_THAT(Fault(first + "left jpeg 4 2\n"), HasSubstr(":2: expected images as mono8"));
   EXPECT_THAT(Fault(first + "depth mono8 4 2\n"), HasSubstr(":2: expected depth as 16UC1"));
   EXPECT_THAT(Fault(first + "left mono8 4\n"),
@@ -147,6 +171,9 @@ TEST_F(RawStreams, NameWhatIsWrong) {
   EXPECT_THAT(Fault(kHeader + Frame(100, 'a', 'b') + "fram 200\n"),
               HasSubstr("standard input: behind 1 frames: expected 'frame' or 'missing'"));
   EXPECT_THAT(Fault(kHeader + "frame -5\n"), HasSubstr("behind 0 frames"));
+  // Samples must be announced.
+  EXPECT_THAT(Fault(kHeader + "imu 90 0.1 0.2 0.3 4 5 6\n"),
+              HasSubstr("expected 'frame' or 'missing' and a stamp in nanoseconds, found 'imu"));
   EXPECT_THAT(Fault(kHeader + std::string(1000, 'x')), HasSubstr("behind 0 frames: expected"));
   const SlowPipe pipe(kHeader);
   EXPECT_THAT(MessageOf([&] { OpenRawStream(pipe.read(), {}); }),

@@ -140,6 +140,31 @@ TEST(ReadRows, CutsAtRunsOfBlanks) {
   EXPECT_TRUE(ReadRows(folder.Write("empty.txt", ""), ' ').empty());
 }
 
+TEST(TextRowReader, ReadsTheRowsOfReadRowsOneByOne) {
+  const ScratchFolder folder;
+  std::string long_table;  // of more than a block
+  for (int i = 0; i < 20'000; ++i) long_table += std::to_string(i) + ", x\n";
+  for (const std::string& text : std::vector<std::string>{
+           "", "\n", "1,2", "1,2\n", "\xEF\xBB\xBF#a\r\n1 , 2\r\n\r\n3,,\n4", long_table}) {
+    const auto file = folder.Write("t.csv", text);
+    TextRowReader reader(file, ',');
+    for (const TextRow& row : ReadRows(file, ',')) {
+      const auto next = reader.Next();
+      ASSERT_TRUE(next);
+      EXPECT_EQ(next->line, row.line);
+      EXPECT_EQ(next->fields, row.fields);
+    }
+    EXPECT_FALSE(reader.Next());
+  }
+  const auto endless = folder.Write("t.csv", "1,2\n" + std::string(kLongestLine + 100, 'x'));
+  TextRowReader reader(endless, ',');
+  EXPECT_TRUE(reader.Next());
+  EXPECT_THAT(MessageOf([&] { reader.Next(); }), HasSubstr("t.csv:2: expected a line of at most"));
+  EXPECT_THAT(MessageOf([&] { TextRowReader(folder.path(), ','); }),
+              HasSubstr(": expected a file, found a folder"));
+  EXPECT_THAT(MessageOf([&] { TextRowReader(folder / "none", ','); }), HasSubstr("no such file"));
+}
+
 TEST(Crc32, AgreesWithTheCheckValueAtEveryLength) {
   const std::string digits = "123456789";
   const std::vector<std::uint8_t> bytes(digits.begin(), digits.end());

@@ -3,6 +3,7 @@
 #include "plumbline/slam/pipeline.h"
 
 #include "tests/support/moving_poster.h"
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <thread>
@@ -160,6 +161,72 @@ TEST_F(LiveTest, EndsWithFramesWaiting) {
   Release();
   pipeline_.reset();
   EXPECT_LE(reasons_.size(), 2U);
+}
+
+InertialCalibration GyroscopeAtTheCamera() {
+  InertialCalibration calibration;
+  calibration.imu_from_left = Rigid3();
+  return calibration;
+}
+
+// Samples at 200 Hz since the frame before, of a camera that does not turn.
+std::vector<InertialSample> SamplesBefore(int frame) {
+  std::vector<InertialSample> samples;
+  const std::int64_t from = MovingPoster::StampNs(frame - 1), to = MovingPoster::StampNs(frame);
+  for (std::int64_t ns = from; ns < to; ns += 5'000'000) {
+    samples.push_back({ns + 5'000'000, {0, 0, 0}, {0, -9.81, 0}});
+  }
+  return samples;
+}
+
+// A gap of more than 150 ms would leave the turn over them unknown. (That to the second frame of a
+// map is not compared.)
+TEST_F(LiveTest, SamplesOfDroppedAndSkippedFramesGoToTheNextFrame) {
+  system_.UseInertial(GyroscopeAtTheCamera());
+  const auto feed = [&](int frame) {
+    pipeline_->AddInertial(SamplesBefore(frame));
+    pipeline_->Feed(poster_.Frame(frame));
+  };
+  Release();
+  for (const int i : {0, 1}) {
+    feed(i);
+    pipeline_->Drain();
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    released_ = false;
+  }
+  feed(2);
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return reasons_.size() == 3; });
+  }
+  for (int i = 3; i <= 9; ++i) feed(i);  // 3 to 7 are dropped
+  Release();
+  pipeline_->Drain();
+  for (int i = 10; i <= 13; ++i) {
+    pipeline_->AddInertial(SamplesBefore(i));
+    pipeline_->Skip(MovingPoster::StampNs(i), "image_unreadable");
+  }
+  feed(14);
+  const RunResult result = pipeline_->Finish();
+  EXPECT_EQ(std::count(reasons_.begin(), reasons_.end(), "dropped"), 5);
+  EXPECT_EQ(std::count(reasons_.begin(), reasons_.end(), ""), 6);
+  ASSERT_TRUE(result.inertial);
+  EXPECT_EQ(result.inertial->turns, 4);  // 1 to 2, 2 to 8, 8 to 9, 9 to 14
+  EXPECT_EQ(result.inertial->contradicted, 0);
+}
+
+TEST(Pipeline, TellsNoTurnOverSamplesThatAreMissing) {
+  System system(MovingPoster::MakeCalibration(), InMode(RunMode::kInline));
+  system.UseInertial(GyroscopeAtTheCamera());
+  Pipeline pipeline(system, [](const FrameRecord&, const FrameView&) {});
+  const MovingPoster poster;
+  for (const int i : {0, 1, 2, 8}) {  // without the samples of the frames between
+    pipeline.AddInertial(SamplesBefore(i));
+    pipeline.Feed(poster.Frame(i));
+  }
+  EXPECT_EQ(pipeline.Finish().inertial->turns, 1);
 }
 
 class PipelineFailure : public ::testing::TestWithParam<RunMode> {};

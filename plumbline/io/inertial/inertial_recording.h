@@ -5,17 +5,25 @@
 #include "plumbline/inertial/inertial_calibration.h"
 #include "plumbline/inertial/inertial_samples.h"
 #include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/inertial/inertial_stream.h"
 
 #include <filesystem>
+#include <functional>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace plumbline {
 
-// What an inertial sensor measured beside the images of a sequence.
+// An inertial sensor of a sequence, or of a live source, and what it measured.
 struct InertialRecording {
+  // All samples of a sequence, or the first ones (InertialOptions::seconds).
   OrderedSamples ordered;
+  bool complete = true;  // false: only the first ones
+  // Opens all samples of a sequence, from the first one on. Empty for a live source.
+  std::function<std::unique_ptr<InertialStream>()> open;
   std::string source;  // "FILE", or "/imu0 of FILE"; of two topics both
   InertialCalibration calibration;
   std::string calibration_source;  // for display; empty if nothing is known
@@ -30,31 +38,20 @@ struct InertialOptions {
   std::optional<std::string> camera = std::nullopt;
   // Topics of a recording named by users; those of an inertial sensor are taken.
   std::vector<std::string> topics = {};
+  // How much to read at once, from the first sample on.
+  double seconds = std::numeric_limits<double>::infinity();
 };
 
-// Samples of a file, and what of it could not be used.
-struct InertialRows {
-  std::vector<InertialSample> samples;  // in the order of the file
-  std::size_t unusable = 0;             // rows that are no samples and are left out
-  std::string first_fault;              // "FILE:LINE: expected ..., found ..." of the first of them
-};
-
-// Reads rows of STAMP, three rates in rad/s and three forces in m/s^2, separated by commas, as the
-// data.csv of EuRoC's imu0. Stamps are in nanoseconds, or with a decimal point in seconds. Throws
-// InputError if more rows cannot be used than can.
-InertialRows ReadInertialRows(const std::filesystem::path& file);
-
-// Finds the samples of a sequence: of EuRoC's form mav0/imu0/data.csv, of other folders imu.csv,
-// of a recording the topic of sensor_msgs/Imu, or the two of a gyroscope and an accelerometer that
-// are sampled apart, which are joined (JoinedSamples). Of several sensors the first by name that
-// measures both is taken, with a note. A topic measures no rates if all of them are zero or their
-// covariance begins with -1, as ROS marks it; forces alike.
+// Finds the samples of a sequence: of EuRoC's form mav0/imu0/data.csv, of other folders imu.csv, of
+// a recording the topic of sensor_msgs/Imu, or the two of a gyroscope and an accelerometer that are
+// sampled apart, which are joined (JoinedSamples). Of several sensors the first by name that
+// measures both is taken, with a note.
 //
 // Calibration, by the first that tells: options.imu, options.camera, a camera file in the folder or
 // beside a file (CameraFileIn), EuRoC's imu0/sensor.yaml with that of cam0.
 //
 // Samples that cannot be used are left out, with a note. Returns nullopt if there are no samples.
-// Throws InputError where most cannot be used, and for files that are malformed.
+// Throws InputError where more samples cannot be used than can, and for files that are malformed.
 std::optional<InertialRecording> FindInertial(const std::filesystem::path& path,
                                               DatasetFormat format,
                                               const InertialOptions& options);
@@ -65,5 +62,14 @@ bool IsInertialAlone(const std::filesystem::path& path);
 // Reads a path of IsInertialAlone. Throws like FindInertial.
 InertialRecording OpenInertialAlone(const std::filesystem::path& path,
                                     const InertialOptions& options);
+
+// Returns the sensor whose samples a caller has. What is known of it: options.imu, options.camera,
+// a camera file in the folder `path` or beside the file there.
+InertialRecording DescribeGivenInertial(std::vector<InertialSample> samples,
+                                        const std::filesystem::path& path,
+                                        const InertialOptions& options);
+
+// Returns the sensor of a live source of this name, with what the files of the options tell.
+InertialRecording DescribeLiveInertial(const std::string& source, const InertialOptions& options);
 
 }  // namespace plumbline

@@ -3,7 +3,9 @@
 #pragma once
 
 #include "plumbline/image/image.h"
+#include "plumbline/inertial/inertial_sample.h"
 #include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/inertial/inertial_stream.h"
 
 #include <chrono>
 #include <cstdint>
@@ -13,6 +15,7 @@
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace plumbline {
 
@@ -47,6 +50,14 @@ class LiveSource {
   // backwards (stamp_continuity.h). Must not be called after a SourceEnd. Throws InputError for
   // data that violate the format of the stream.
   virtual LiveEvent Next() = 0;
+
+  // Returns true if samples of an inertial sensor come between the frames.
+  virtual bool HasInertial() const { return false; }
+  // Returns the samples that came since the last call, before the frame that Next returned last.
+  // Those that cannot be used are left out.
+  virtual std::vector<InertialSample> TakeInertial() { return {}; }
+  // What of the samples was left out so far.
+  virtual UnusableSamples UnusableInertial() const { return {}; }
 
  private:
   DatasetInfo info_;

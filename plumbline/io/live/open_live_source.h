@@ -46,8 +46,11 @@ std::unique_ptr<LiveSource> OpenCapture(const std::string& name,
 //   plumbline frames 1
 //   left mono8 752 480
 //   right mono8 752 480             only of a pair
-//   depth 16UC1 752 480 1000        only of RGB-D; the last number: value per metre (default: the
-//   end                             camera file's, or 1000)
+//   depth 16UC1 752 480 1000        only of RGB-D; the last number: value per metre (default: that
+//                                   of the camera file, or 1000)
+//   imu                             only with an inertial sensor
+//   end
+//   imu 1403636579758555392 -0.099 0.147 0.026 8.14 -0.37 -2.4    a sample (ParseInertialSample)
 //   frame 1403636579763555584       stamp in nanoseconds
 //   <752*480 bytes of left><752*480 bytes of right>...
 //   frame 1403636579813555456
@@ -55,8 +58,9 @@ std::unique_ptr<LiveSource> OpenCapture(const std::string& name,
 //   missing 1403636592913555456     a frame that the sender could not get
 //
 // Encodings and their bytes: raw_pixels.h, 16 and 32 bits little-endian. Rows have no padding.
-// Images come in the order of the header. The end of the stream is the end of the run; an end
-// within a frame loses that frame only.
+// Images come in the order of the header. Samples of an inertial sensor come before the first frame
+// whose stamp is not before theirs; those that cannot be used are left out. The end of the stream
+// is the end of the run; an end within a frame loses that frame only.
 //
 // Reads the header from the file descriptor, which stays open. Data in another format throw an
 // InputError that begins with "standard input:": a wrong header at once, a wrong frame in Next.

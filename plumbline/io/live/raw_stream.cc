@@ -10,8 +10,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <deque>
+#include <span>
 #include <sstream>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -25,6 +28,7 @@ constexpr std::string_view kFirstLine = "plumbline frames 1";
 constexpr std::size_t kLongestLine = 256;
 constexpr std::size_t kBufferBytes = 1 << 16;
 constexpr double kMillimetres = 1000;
+constexpr std::size_t kMostSamples = 60'000;  // of a frame: a minute at 1 kHz
 
 // Reads bytes from a pipe as they come.
 class PipeReader {
@@ -99,6 +103,7 @@ struct Plane {
 struct Header {
   // In the order in which their images come.
   std::vector<std::pair<std::string, Plane>> planes;
+  bool imu = false;  // samples of an inertial sensor come between the frames
 
   const Plane* Find(std::string_view role) const {
     for (const auto& [name, plane] : planes) {
@@ -170,8 +175,12 @@ Header ReadHeader(PipeReader& pipe) {
     const std::vector<std::string> words = Words(line);
     const std::string role = words.empty() ? "" : words[0];
     if (role == "end") break;
+    if (line == "imu" && !header.imu) {
+      header.imu = true;
+      continue;
+    }
     if ((role != "left" && role != "right" && role != "depth") || header.Find(role) != nullptr) {
-      FailAtLine(number, "'left', 'right' or 'depth', each once, or 'end'", line);
+      FailAtLine(number, "'left', 'right', 'depth' or 'imu', each once, or 'end'", line);
     }
     header.planes.emplace_back(role, ParsePlane(words, number, line));
   }
@@ -188,12 +197,15 @@ class RawStream : public LiveSource {
 
   LiveEvent Next() override {
     std::string line;
-    if (!pipe_.Line(line)) {
-      if (line.empty()) return SourceEnd{};
-      if (line.size() >= kLongestLine) FailAtFrame(line);
-      return EndsInFrame();
-    }
-    const std::vector<std::string> words = Words(line);
+    std::vector<std::string> words;
+    do {
+      if (!pipe_.Line(line)) {
+        if (line.empty()) return SourceEnd{};
+        if (line.size() >= kLongestLine) FailAtFrame(line);
+        return EndsInFrame();
+      }
+      words = Words(line);
+    } while (TakeSample(words));
     const auto stamp_ns = words.size() == 2 ? ParseNanoseconds(words[1]) : std::nullopt;
     if (!stamp_ns || (words[0] != "frame" && words[0] != "missing")) FailAtFrame(line);
     ++frames_;
@@ -203,13 +215,35 @@ class RawStream : public LiveSource {
     return ReadFrame(*stamp_ns);
   }
 
+  bool HasInertial() const override { return header_.imu; }
+  std::vector<InertialSample> TakeInertial() override {
+    const std::deque<InertialSample> taken = std::exchange(inertial_, {});
+    return {taken.begin(), taken.end()};
+  }
+  UnusableSamples UnusableInertial() const override { return unusable_; }
+
  private:
+  // Returns false for a line that is no sample. Lines of samples that cannot be used are counted.
+  bool TakeSample(const std::vector<std::string>& words) {
+    if (!header_.imu || words.empty() || words[0] != "imu") return false;
+    const auto sample = ParseInertialSample(std::span(words).subspan(1));
+    if (sample) {
+      if (inertial_.size() == kMostSamples) inertial_.pop_front();
+      inertial_.push_back(*sample);
+    } else if (unusable_.count++ == 0) {
+      unusable_.first = fmt::format("{}: behind {} frames: {}", kName, frames_, sample.error());
+    }
+    return true;
+  }
+
   [[noreturn]] void FailAtFrame(const std::string& line) const {
-    throw InputError(fmt::format(
-        "{}: behind {} frames: expected 'frame' or 'missing' and a stamp in nanoseconds, found {}",
-        kName,
-        frames_,
-        InQuotes(line)));
+    throw InputError(
+        fmt::format("{}: behind {} frames: expected 'frame' or 'missing' and a stamp in "
+                    "nanoseconds{}, found {}",
+                    kName,
+                    frames_,
+                    header_.imu ? ", or 'imu' and a sample" : "",
+                    InQuotes(line)));
   }
 
   LiveEvent EndsInFrame() const {
@@ -239,7 +273,9 @@ class RawStream : public LiveSource {
   PipeReader pipe_;
   Header header_;
   std::vector<std::uint8_t> bytes_;
-  std::size_t frames_ = 0;  // number of frames that have begun
+  std::size_t frames_ = 0;               // number of frames that have begun
+  std::deque<InertialSample> inertial_;  // not taken yet
+  UnusableSamples unusable_;
 };
 
 std::vector<SensorKind> Available(const Header& header) {
