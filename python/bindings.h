@@ -15,6 +15,7 @@ void BindDatasets(pybind11::module_& module);
 void BindMaps(pybind11::module_& module);
 void BindMapMerging(pybind11::module_& module);
 void BindSystem(pybind11::module_& module);
+void BindInertial(pybind11::module_& module);
 void BindLines(pybind11::module_& module);
 void BindInitialization(pybind11::module_& module);
 void BindCutting(pybind11::module_& module);

@@ -16,6 +16,7 @@ PYBIND11_MODULE(_plumbline, module) {
   python::BindMaps(module);
   python::BindMapMerging(module);
   python::BindSystem(module);
+  python::BindInertial(module);
   python::BindLines(module);
   python::BindInitialization(module);
   python::BindCutting(module);

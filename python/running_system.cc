@@ -41,6 +41,20 @@ RunningSystem::RunningSystem(const Calibration& calibration,
         Observe(record, view);
       }) {}
 
+void RunningSystem::UseInertial(const InertialCalibration& calibration) {
+  const auto lock = Enter("imu");
+  CheckRunning("imu");
+  system_.UseInertial(calibration);
+  uses_inertial_ = true;
+}
+
+void RunningSystem::AddInertial(std::span<const InertialSample> samples) {
+  if (samples.empty()) return;
+  const auto lock = Enter("imu");
+  CheckRunning("imu");
+  pipeline_.AddInertial(samples);
+}
+
 void RunningSystem::Feed(SensorFrame frame) {
   const auto lock = Enter("feed");
   CheckRunning("feed");

@@ -13,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,11 @@ class RunningSystem {
   const SlamOptions& options() const { return options_; }
   const std::optional<std::string>& preset() const { return preset_; }
 
+  // Uses the gyroscope of an inertial sensor, before the first frame (System::UseInertial).
+  void UseInertial(const InertialCalibration& calibration);
+  bool uses_inertial() const { return uses_inertial_; }
+  // Takes samples of it, those of a frame before the frame. They are left out if no sensor is used.
+  void AddInertial(std::span<const InertialSample> samples);
   // Feeds the images of a frame. Its record is returned by TakeRecords.
   void Feed(SensorFrame frame);
   // Feeds a frame and waits for its record, which TakeRecords does not return again, so that
@@ -82,6 +88,7 @@ class RunningSystem {
   std::mutex entered_;
   std::optional<RunResult> result_;  // once it is finished
   bool continues_ = false;           // maps were loaded
+  bool uses_inertial_ = false;
   std::optional<std::int64_t> last_stamp_ns_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   KeptViews views_{{}};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
+#include "plumbline/io/inertial/inertial_calibration_file.h"
 #include "plumbline/report/run_files.h"
 #include "plumbline/version.h"
 
@@ -9,6 +10,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "frames.h"
+#include "inertial.h"
 #include "interruptible.h"
 #include "maps.h"
 #include "options.h"
@@ -34,12 +36,22 @@ std::unique_ptr<RunningSystem> MakeSystem(const Calibration& calibration,
                                           const py::object& seed,
                                           const py::object& mode,
                                           const py::object& preset,
+                                          const std::optional<std::filesystem::path>& imu,
                                           const py::kwargs& given) {
   const SlamOptions options = ReadRunOptions({preset, seed, mode}, given);
   std::optional<std::string> name;
   if (!preset.is_none()) name = preset.cast<std::string>();
+  std::optional<InertialCalibration> inertial;
+  if (imu) inertial = ReadInertialCalibration(*imu);
+  if (inertial && !inertial->imu_from_left) {
+    throw InputError(
+        imu->string() +
+        ": expected the place of the sensor at the camera (imu_from_left), found none");
+  }
   const py::gil_scoped_release release;
-  return std::make_unique<RunningSystem>(calibration, options, std::move(name));
+  auto system = std::make_unique<RunningSystem>(calibration, options, std::move(name));
+  if (inertial) system->UseInertial(*inertial);
+  return system;
 }
 
 std::int64_t ReadStamp(py::handle value) {
@@ -111,17 +123,31 @@ void AddMasks(py::handle mask, SensorFrame& frame) {
   frame.right_mask = read(py::object(pair[1]), "mask of the right image");
 }
 
-FrameRecord Process(RunningSystem& system, py::handle images, py::handle stamp, py::handle mask) {
+// Samples for a system, which must know their sensor.
+std::vector<InertialSample> ReadSamplesFor(const RunningSystem& system, py::handle imu) {
+  std::vector<InertialSample> samples = ReadInertialSamples(imu);
+  if (imu.is_none() || system.uses_inertial()) return samples;
+  throw InputError(
+      "imu: expected System(..., imu=FILE) with the calibration of the sensor as well");
+}
+
+FrameRecord Process(
+    RunningSystem& system, py::handle images, py::handle stamp, py::handle mask, py::handle imu) {
   SensorFrame frame = ReadImages(system.calibration(), images, stamp);
   AddMasks(mask, frame);
+  const std::vector<InertialSample> samples = ReadSamplesFor(system, imu);
   const py::gil_scoped_release release;
+  system.AddInertial(samples);
   return system.Process(std::move(frame));
 }
 
-void Feed(RunningSystem& system, py::handle images, py::handle stamp, py::handle mask) {
+void Feed(
+    RunningSystem& system, py::handle images, py::handle stamp, py::handle mask, py::handle imu) {
   SensorFrame frame = ReadImages(system.calibration(), images, stamp);
   AddMasks(mask, frame);
+  const std::vector<InertialSample> samples = ReadSamplesFor(system, imu);
   const py::gil_scoped_release release;
+  system.AddInertial(samples);
   system.Feed(std::move(frame));
 }
 
@@ -343,10 +369,12 @@ void BindFeeding(py::class_<RunningSystem>& system) {
            py::arg("seed") = py::none(),
            py::arg("mode") = py::none(),
            py::arg("preset") = py::none(),
-           R"(System(calibration, seed=None, mode=None, preset=None, **options)
+           py::arg("imu") = py::none(),
+           R"(System(calibration, seed=None, mode=None, preset=None, imu=None, **options)
 
 seed: of the random numbers; mode: "inline", "lockstep" or "live" (slam.seed and slam.mode). preset:
-the system of a paper, "rippl" or "good-line-cutting", to which options are added.
+the system of a paper, "rippl" or "good-line-cutting", to which options are added. imu: a file that
+tells of an inertial sensor (imu: of a camera file), whose samples come with the frames.
 options: groups as dictionaries, features={"line_count": 100}, or dotted keys,
 **{"features.line_count": 100}. Raises InputError with the program's message.)")
       .def("process",
@@ -354,21 +382,24 @@ options: groups as dictionaries, features={"line_count": 100}, or dotted keys,
            py::arg("images"),
            py::arg("stamp_ns") = py::none(),
            py::arg("mask") = py::none(),
-           R"(process(images, stamp_ns=None, mask=None) -> FrameResult
+           py::arg("imu") = py::none(),
+           R"(process(images, stamp_ns=None, mask=None, imu=None) -> FrameResult
 
 Takes a frame and waits until it is tracked. images: a Frame (its own stamp), an array of uint8
 (rows, columns), a pair (left, right), or (left, depth) with depth in metres (float) or in 16 bits
 over the calibration's depth_factor. They are copied, and may be changed at once. stamp_ns: whole
 nanoseconds, later than the frame before. mask: an array of uint8 like the image, 0 where nothing is
-to be used, or a pair of them. The GIL is released meanwhile.)")
+to be used, or a pair of them. imu: samples since the frame before, up to this one: (N, 7), stamp in
+nanoseconds, rates in rad/s, forces in m/s^2. The GIL is released meanwhile.)")
       .def("feed",
            &Feed,
            py::arg("images"),
            py::arg("stamp_ns") = py::none(),
            py::arg("mask") = py::none(),
-           R"(feed(images, stamp_ns=None, mask=None)
+           py::arg("imu") = py::none(),
+           R"(feed(images, stamp_ns=None, mask=None, imu=None)
 
-Takes a frame, images, stamp_ns and mask as process() does, and does not wait until it is tracked: with
+Takes a frame, images, stamp_ns, mask and imu as process() does, and does not wait until it is tracked: with
 slam.mode lockstep tracking is up to two frames behind, with live frames may be dropped. results()
 tells what came of the frames.)")
       .def("skip",
@@ -383,12 +414,15 @@ tells what came of the frames.)")
            R"(results() -> list of FrameResult
 
 What came of the frames that were tracked since the last call, in order. Those that process()
-returned are left out.)")
-      .def("continue_in",
-           &ContinueIn,
-           py::arg("atlas"),
-           py::arg("read_only") = false,
-           R"(continue_in(atlas, read_only=False) -> list of str
+returned are left out.)");
+}
+
+void BindContinuing(py::class_<RunningSystem>& system) {
+  system.def("continue_in",
+             &ContinueIn,
+             py::arg("atlas"),
+             py::arg("read_only") = false,
+             R"(continue_in(atlas, read_only=False) -> list of str
 
 Before the first frame: goes on in the active map of an Atlas, where the camera is looked for.
 read_only: only localizes, and changes nothing. Returns what makes the map harder to use.)");
@@ -470,6 +504,7 @@ several threads. With the modes lockstep (the default) and live it has threads, 
 not copy: in a forked child it never answers. Make systems in the child, or use processes that
 start anew (multiprocessing's "spawn").)");
   BindFeeding(system);
+  BindContinuing(system);
   BindResults(system);
   system.def("causal_covariances",
              &CovariancesIn,

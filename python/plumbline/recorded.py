@@ -7,6 +7,7 @@ import functools
 import operator
 import os
 import time
+import warnings
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
@@ -15,7 +16,7 @@ from ._plumbline import Atlas, Dataset, Frame, FrameResult, InputError, Map, Sys
 
 if TYPE_CHECKING:
     import numpy as np
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from ._plumbline import _TrajectoryErrors  # known to the types alone
 
@@ -131,7 +132,8 @@ class _Teller:
                 self._on_event(event)
 
 
-def _feed(system: System, dataset: Dataset, frames: list[int], teller: _Teller) -> None:
+def _feed(system: System, dataset: Dataset, frames: list[int], teller: _Teller,
+          inertial: _plumbline._RunInertial | None = None) -> None:
     live = system.options["slam"]["mode"] == "live"
     stamps = dataset.stamps_ns
     schedule = _plumbline._PlaybackSchedule()
@@ -141,6 +143,8 @@ def _feed(system: System, dataset: Dataset, frames: list[int], teller: _Teller) 
             frame = _read_live(dataset, index, stamp_ns, schedule)
         else:
             frame = dataset._read(index)
+        if inertial is not None:
+            inertial.feed_up_to(system, stamp_ns)
         if isinstance(frame, str):
             system.skip(stamp_ns, frame)
         else:
@@ -159,7 +163,7 @@ def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None =
         view_angle: float | None = None, mask: Path | Sequence[Path] | None = None, start: int = 0,
         stop: int | None = None, stride: int = 1, map: Path | Atlas | None = None,
         localize: bool = False, out: Path | None = None, seed: int | None = None,
-        mode: str | None = None,
+        mode: str | None = None, imu: Path | ArrayLike = "off",
         on_frame: Callable[[FrameResult], object] | None = None,
         on_event: Callable[[dict[str, Any]], object] | None = None, **options: Any) -> Run:
     """Tracks the camera through a recorded sequence and maps what it sees, as `plumbline run`; the
@@ -169,7 +173,9 @@ def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None =
     sensor, camera, format, topics, ground_truth, rotate, max_width, view_angle, mask: as for
     open(), or path is a Dataset. start, stop, stride: which frames. map: a file or an Atlas to go on in; localize: only
     find the camera in it. out: a folder for the files of the run. seed: of the random numbers; mode:
-    "inline", "lockstep" or "live" (slam.seed and slam.mode). on_frame: called with the FrameResult of each frame, in order;
+    "inline", "lockstep" or "live" (slam.seed and slam.mode). imu: "off", "auto" (the gyroscope of the
+    data), a file that tells of the sensor, or samples (N, 7), stamp in nanoseconds, rates in rad/s,
+    forces in m/s^2, of a sensor that the camera file tells of; what is wrong is a UserWarning. on_frame: called with the FrameResult of each frame, in order;
     on_event: with a dictionary for each loop, join of maps and relocalization, as soon as it is
     known (System.new_events); both in this thread. options: groups as dictionaries,
     features={"line_count": 100}, or dotted keys.
@@ -196,7 +202,11 @@ def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None =
     if localize and map is None:
         raise InputError("localize: expected map as well")
     frames = _choose_frames(dataset, start, stop, stride)
+    inertial = _plumbline._RunInertial(dataset, imu, camera, tuple(topics), rotate)
+    for note in inertial.notes:
+        warnings.warn(note, stacklevel=2)
     system = System(dataset.calibration, preset=preset, seed=seed, mode=mode, **options)
+    inertial.use(system)
     atlas = map if map is None or isinstance(map, Atlas) else _plumbline.load_map(map)
     folder = None
     if out is not None:
@@ -220,7 +230,7 @@ def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None =
 
     teller = _Teller(system, on_frame, on_event)
     try:
-        _feed(system, dataset, frames, teller)
+        _feed(system, dataset, frames, teller, inertial)
     except BaseException as failure:
         # Of a system that refused its first frame there is nothing to keep.
         if folder is not None and (teller.began or isinstance(failure, KeyboardInterrupt)):
@@ -228,4 +238,6 @@ def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None =
         raise
     written = finish()
     teller.tell()
+    for note in inertial.notes_after(system):
+        warnings.warn(note, stacklevel=2)
     return Run(system, dataset, teller.results, written)

@@ -39,6 +39,71 @@ def test_a_run_writes_the_bytes_of_the_program(program, sequence, tmp_path):
     plumbline.run(sequence, out=tmp_path / "python", stop=4)
 
 
+def samples_of(sequence) -> np.ndarray:
+    return np.loadtxt(sequence / "mav0" / "imu0" / "data.csv", delimiter=",", comments="#")
+
+
+@pytest.fixture
+def imu_file(tmp_path, sequence):
+    """A camera file's section of the sensor: the places of EuRoC's files as one."""
+    def place(name: str) -> np.ndarray:
+        text = (sequence / "mav0" / name / "sensor.yaml").read_text()
+        numbers = text[text.index("data: [") + 7:]
+        return np.array([float(x) for x in numbers[:numbers.index("]")].split(",")]).reshape(4, 4)
+
+    rows = (np.linalg.inv(place("imu0")) @ place("cam0")).ravel()
+    densities = [line for line in (sequence / "mav0" / "imu0" / "sensor.yaml").read_text().splitlines()
+                 if line.startswith(("gyroscope_", "accelerometer_"))]
+    file = tmp_path / "imu.yaml"
+    file.write_text("\n  ".join(
+        ["imu:", f"imu_from_left: [{', '.join(repr(float(x)) for x in rows)}]", *densities]) + "\n")
+    return file
+
+
+def test_the_gyroscope_of_the_data_gives_the_bytes_of_the_program(program, sequence, tmp_path):
+    subprocess.run([program, "run", sequence, "--quiet", "--imu", "auto", "--out",
+                    tmp_path / "program"], check=True)
+    plumbline.run(sequence, out=tmp_path / "python", imu="auto")
+    for name in ("trajectory.txt", "trajectory_causal.txt", "lines.obj"):
+        assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "program" / name).read_bytes()
+    summary = json.loads((tmp_path / "python" / "summary.json").read_text())
+    assert summary["inertial"]["turns"] >= 8
+
+
+def test_samples_are_taken_as_an_array_at_once_or_with_the_frames(sequence, dataset, imu_file):
+    samples = samples_of(sequence)
+    system = plumbline.System(dataset.calibration, imu=imu_file)
+    assert len(samples) > 100
+    before = -np.inf
+    for frame in dataset:
+        until = frame.stamp_ns + 20e6
+        fresh = samples[(samples[:, 0] > before) & (samples[:, 0] <= until)]
+        assert system.process(frame, imu=fresh).status == "tracked"
+        before = until
+    system.finish()
+    with_file = plumbline.run(sequence, imu=imu_file)
+    # But for stamps in float64, which are rounded by up to 0.2 us.
+    assert np.allclose(system.trajectory().positions, with_file.trajectory.positions, atol=1e-6)
+    without = plumbline.run(sequence)
+    assert not np.array_equal(without.trajectory.positions, with_file.trajectory.positions)
+    with pytest.raises(plumbline.InputError, match="imu: expected the place of the sensor"):
+        plumbline.run(dataset, imu=samples)  # nothing tells where the sensor is
+
+
+def test_what_is_wrong_with_samples_is_told(sequence, tmp_path):
+    (tmp_path / "camera.yaml").write_text(
+        "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrate_hz: 3\nimu:\n"
+        "  imu_from_left: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n")
+    for i in range(3):
+        (tmp_path / f"{i}.pgm").write_bytes(b"P5\n8 6\n255\n" + bytes(48))
+    samples = np.zeros((300, 7))
+    samples[:, 0] = np.arange(300) * 5e6
+    samples[:, 6] = 9.81
+    samples[100:, 0] += 1e8
+    with pytest.warns(UserWarning, match="1 gaps above 1.5 intervals, the longest 0.105 s"):
+        plumbline.run(tmp_path, imu=samples)
+
+
 def test_a_preset_is_named_in_the_summary(sequence, tmp_path):
     for preset in ("good-line-cutting", None):
         plumbline.run(sequence, preset=preset, stop=3, out=tmp_path / "out")
