@@ -62,6 +62,21 @@ Count CountOf(const std::vector<Rigid3>& poses, const TrackSceneOptions& options
   return count;
 }
 
+// Starts before a plane, with a gyroscope whose turns are turned on by `wrong`.
+Count CountOfPlaneBy(const std::vector<Rigid3>& poses, const Eigen::Vector3d& wrong) {
+  Count count;
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const TrackScene scene = MakeTrackScene(seed, poses, {.plane = true, .sigma = kSigma});
+    const MeasuredTurns turns = TurnsOf(scene, wrong);
+    PriorHypotheses prior;
+    Rng rng(seed, "decide");
+    SelectModel(scene.tracks, {}, prior, rng, turns);
+    const auto found = SelectModel(scene.tracks, {}, prior, rng, turns).reconstruction;
+    if (found) ++(IsRight(scene, *found) ? count.right : count.wrong);
+  }
+  return count;
+}
+
 TEST(SelectModel, FindsACloudOfPoints) {
   const Count count =
       CountOf(CurvedMotion(3, 1), {.sigma = kSigma, .missed = 0.2, .outliers = 0.06});
@@ -93,26 +108,31 @@ TEST(SelectModel, AGyroscopeMakesNoStartWrongAndPreventsNone) {
   for (int i = 1; i <= 3; ++i) {
     poses.push_back({Eigen::Quaterniond::Identity(), -0.15 * i * Eigen::Vector3d(1, 0.2, 0.2)});
   }
-  const auto started = [&](const Eigen::Vector3d& wrong) {
-    Count count;
-    for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
-      const TrackScene scene = MakeTrackScene(seed, poses, {.plane = true, .sigma = kSigma});
-      const MeasuredTurns turns = TurnsOf(scene, wrong);
-      PriorHypotheses prior;
-      Rng rng(seed, "decide");
-      SelectModel(scene.tracks, {}, prior, rng, turns);
-      const auto found = SelectModel(scene.tracks, {}, prior, rng, turns).reconstruction;
-      if (found) ++(IsRight(scene, *found) ? count.right : count.wrong);
-    }
-    return count;
-  };
   const Count by_images = CountOf(poses, {.plane = true, .sigma = kSigma});
-  const Count by_gyroscope = started({0, 0, 0});
+  const Count by_gyroscope = CountOfPlaneBy(poses, {0, 0, 0});
   EXPECT_GE(by_gyroscope.right, by_images.right);
   EXPECT_EQ(by_gyroscope.wrong, 0);
-  const Count contradicted = started({0, 0, 1});
+  const Count contradicted = CountOfPlaneBy(poses, {0, 0, 1});
   EXPECT_EQ(contradicted.right, by_images.right);
   EXPECT_EQ(contradicted.wrong, 0);
+}
+
+// Where a camera turns a little, images leave some of these starts open.
+TEST(SelectModel, AGyroscopeDecidesStartsThatImagesLeaveOpen) {
+  Count by_images, by_gyroscope;
+  for (const double step : {0.1, 0.15}) {
+    std::vector<Rigid3> poses;
+    for (int i = 1; i <= 3; ++i) {
+      poses.push_back({ExpSo3({0.02 * i, 0.05 * i, 0}), -step * i * Eigen::Vector3d(1, 0.2, 0.2)});
+    }
+    const Count images = CountOf(poses, {.plane = true, .sigma = kSigma});
+    const Count gyroscope = CountOfPlaneBy(poses, {0, 0, 0});
+    by_images.right += images.right;
+    by_gyroscope.right += gyroscope.right;
+    by_gyroscope.wrong += gyroscope.wrong;
+  }
+  EXPECT_GT(by_gyroscope.right, by_images.right);
+  EXPECT_EQ(by_gyroscope.wrong, 0);
 }
 
 TEST(TurnChi2, TellsHowFarRotationsAreFromTheGyroscopes) {
@@ -133,6 +153,25 @@ TEST(SelectModel, WaitsWhileTheCameraTurnsOrStands) {
   for (const auto& poses : {turning, standing}) {
     const Count count = CountOf(poses, {.sigma = kSigma, .outliers = 0.05});
     EXPECT_EQ(count.right + count.wrong, 0);
+  }
+}
+
+// The turns that a gyroscope tells are no reason to believe in a motion.
+TEST(SelectModel, WaitsWhileTheCameraOnlyTurnsByItsGyroscope) {
+  std::vector<Rigid3> turning;
+  for (int i = 1; i <= 3; ++i) turning.push_back({ExpSo3({0, 0.05 * i, 0.01 * i}), {0, 0, 0}});
+  for (const bool plane : {false, true}) {
+    for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+      const TrackScene scene =
+          MakeTrackScene(seed, turning, {.plane = plane, .sigma = kSigma, .outliers = 0.05});
+      const MeasuredTurns turns = TurnsOf(scene, {0, 0, 0});
+      PriorHypotheses prior;
+      Rng rng(seed, "decide");
+      SelectModel(scene.tracks, {}, prior, rng, turns);
+      const ModelSelection selection = SelectModel(scene.tracks, {}, prior, rng, turns);
+      EXPECT_FALSE(selection.reconstruction) << seed;
+      EXPECT_NE(selection.wait, InitializationStatus::kNone);
+    }
   }
 }
 
