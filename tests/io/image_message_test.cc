@@ -22,6 +22,7 @@ class Dialects : public testing::TestWithParam<Dialect> {
     const std::map<Dialect, MessageEncoding> encodings = {
         {Dialect::kRos1, MessageEncoding::kRos1},
         {Dialect::kCdr, MessageEncoding::kCdr},
+        {Dialect::kBigEndianCdr, MessageEncoding::kCdr},
         {Dialect::kProtobuf, MessageEncoding::kProtobuf}};
     return {kind, encodings.at(GetParam())};
   }
@@ -92,9 +93,21 @@ TEST_P(Dialects, NoticeMessagesThatEndEarly) {
                                 BytesOf(camera.substr(0, camera.size() - 3))));
 }
 
-INSTANTIATE_TEST_SUITE_P(All,
-                         Dialects,
-                         testing::Values(Dialect::kRos1, Dialect::kCdr, Dialect::kProtobuf));
+INSTANTIATE_TEST_SUITE_P(
+    All,
+    Dialects,
+    testing::Values(Dialect::kRos1, Dialect::kCdr, Dialect::kBigEndianCdr, Dialect::kProtobuf));
+
+TEST(ParseRosClock, ReadsTheTime) {
+  for (const Dialect dialect : {Dialect::kRos1, Dialect::kCdr, Dialect::kBigEndianCdr}) {
+    RosFields fields(dialect);
+    fields.Time(1'403'636'579'763'555'584);
+    const std::string bytes = fields.Take();
+    const bool cdr = dialect != Dialect::kRos1;
+    EXPECT_EQ(ParseRosClock(cdr, BytesOf(bytes)), 1'403'636'579'763'555'584);
+    EXPECT_EQ(ParseRosClock(cdr, BytesOf(bytes.substr(0, bytes.size() - 1))), std::nullopt);
+  }
+}
 
 TEST(FormOf, KnowsTypesByTheirEncoding) {
   const auto kind = [](const char* type, const char* encoding) {
@@ -111,9 +124,9 @@ TEST(FormOf, KnowsTypesByTheirEncoding) {
   EXPECT_EQ(kind("foxglove.RawImage", "json"), std::nullopt);
 }
 
-TEST(ParseImage, RefusesBigEndianCdr) {
+TEST(ParseImage, RefusesOtherEncodingsOfCdr) {
   std::string bytes = RawImageMessage(Dialect::kCdr, {5, "mono8", 1, 1, 1, "x"});
-  bytes[1] = 0;
+  bytes[1] = 3;  // PL_CDR_LE
   EXPECT_FALSE(ParseImage({MessageKind::kImage, MessageEncoding::kCdr}, BytesOf(bytes)));
 }
 

@@ -128,8 +128,8 @@ TEST(OpenInertialTopics, JoinsTopicsOfRos2) {
       mcap.Add(topic, "sensor_msgs/msg/Imu", "cdr", stamp_ns, message);
       bag.Add(topic, "sensor_msgs/msg/Imu", stamp_ns, message);
     };
-    add("/gyro", InertialBytes(true, stamp_ns, 0.01 * i + 0.01, std::nullopt));
-    if (i % 4 == 0) add("/accel", InertialBytes(true, stamp_ns, std::nullopt, 9 + i));
+    add("/gyro", InertialMessageOf(Dialect::kCdr, stamp_ns, 0.01 * i + 0.01, std::nullopt));
+    if (i % 4 == 0) add("/accel", InertialMessageOf(Dialect::kCdr, stamp_ns, std::nullopt, 9 + i));
   }
   for (const auto& [file, format] :
        {std::pair{folder.Write("x.mcap", mcap.Finish()), DatasetFormat::kMcap},

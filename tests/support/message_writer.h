@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,42 +21,44 @@ inline std::string LittleEndian(std::uint64_t value, std::size_t size) {
 }
 
 // Serialization of the messages of a test.
-enum class Dialect { kRos1, kCdr, kProtobuf };
+enum class Dialect { kRos1, kCdr, kBigEndianCdr, kProtobuf };
 
 // Writes the fields of ROS messages: of ROS 1, or as CDR of ROS 2.
 class RosFields {
  public:
-  explicit RosFields(bool cdr) : cdr_(cdr) {}
+  explicit RosFields(Dialect dialect)
+      : cdr_(dialect != Dialect::kRos1), big_endian_(dialect == Dialect::kBigEndianCdr) {}
 
   void U8(std::uint8_t value) { body_ += static_cast<char>(value); }
-  void U32(std::uint32_t value) {
-    Align(4);
-    body_ += LittleEndian(value, 4);
-  }
-  void F64(double value) {
-    Align(8);
-    body_ += LittleEndian(std::bit_cast<std::uint64_t>(value), 8);
-  }
+  void U32(std::uint32_t value) { Number(value, 4); }
+  void F64(double value) { Number(std::bit_cast<std::uint64_t>(value), 8); }
   void Text(const std::string& text) { Bytes(cdr_ ? text + '\0' : text); }
   void Bytes(std::string_view bytes) {
     U32(static_cast<std::uint32_t>(bytes.size()));
     body_ += bytes;
   }
-  void Header(std::int64_t stamp_ns, const std::string& frame) {
-    if (!cdr_) U32(7);
+  void Time(std::int64_t stamp_ns) {
     U32(static_cast<std::uint32_t>(stamp_ns / 1'000'000'000));
     U32(static_cast<std::uint32_t>(stamp_ns % 1'000'000'000));
+  }
+  void Header(std::int64_t stamp_ns, const std::string& frame) {
+    if (!cdr_) U32(7);
+    Time(stamp_ns);
     Text(frame);
   }
 
-  std::string Take() const { return cdr_ ? std::string("\0\1\0\0", 4) + body_ : body_; }
-
- private:
-  void Align(std::size_t size) {
-    while (cdr_ && body_.size() % size != 0) body_ += '\0';
+  std::string Take() const {
+    return cdr_ ? std::string(big_endian_ ? "\0\0\0\0" : "\0\1\0\0", 4) + body_ : body_;
   }
 
-  bool cdr_;
+ private:
+  void Number(std::uint64_t value, std::size_t size) {
+    while (cdr_ && body_.size() % size != 0) body_ += '\0';
+    const std::string bytes = LittleEndian(value, size);
+    body_ += big_endian_ ? std::string(bytes.rbegin(), bytes.rend()) : bytes;
+  }
+
+  bool cdr_, big_endian_;
   std::string body_;
 };
 
@@ -117,7 +120,7 @@ inline std::string RawImageMessage(Dialect dialect, const TestImage& image) {
     fields.Bytes(7, image.frame);
     return fields.Take();
   }
-  RosFields fields(dialect == Dialect::kCdr);
+  RosFields fields(dialect);
   fields.Header(image.stamp_ns, image.frame);
   fields.U32(image.height);
   fields.U32(image.width);
@@ -137,7 +140,7 @@ inline std::string CompressedImageMessage(Dialect dialect, const TestImage& imag
     fields.Bytes(3, image.encoding);
     return fields.Take();
   }
-  RosFields fields(dialect == Dialect::kCdr);
+  RosFields fields(dialect);
   fields.Header(image.stamp_ns, image.frame);
   fields.Text(image.encoding);
   fields.Bytes(image.data);
@@ -176,7 +179,7 @@ inline std::string CalibrationMessageOf(Dialect dialect, const TestCamera& camer
     fields.Bytes(8, packed(camera.p));
     return fields.Take();
   }
-  RosFields fields(dialect == Dialect::kCdr);
+  RosFields fields(dialect);
   fields.Header(1, "cam");
   fields.U32(camera.height);
   fields.U32(camera.width);
@@ -190,6 +193,25 @@ inline std::string CalibrationMessageOf(Dialect dialect, const TestCamera& camer
   fields.U32(camera.binning);
   for (int i = 0; i < 4; ++i) fields.U32(0);
   fields.U8(0);
+  return fields.Take();
+}
+
+// A sensor_msgs/Imu whose rates and forces are given along x and z; nullopt: marked as not
+// measured.
+inline std::string InertialMessageOf(Dialect dialect,
+                                     std::int64_t stamp_ns,
+                                     std::optional<double> rate,
+                                     std::optional<double> force) {
+  RosFields fields(dialect);
+  fields.Header(stamp_ns, "imu");
+  for (const double q : {0, 0, 0, 1}) fields.F64(q);
+  for (int i = 0; i < 9; ++i) fields.F64(i == 0 ? -1 : 0);
+  const auto vector = [&](double x, double z, bool measured) {
+    for (const double number : {x, 0.0, z}) fields.F64(number);
+    for (int i = 0; i < 9; ++i) fields.F64(i == 0 && !measured ? -1 : 0);
+  };
+  vector(rate.value_or(0), 0, rate.has_value());
+  vector(0, force.value_or(0), force.has_value());
   return fields.Take();
 }
 

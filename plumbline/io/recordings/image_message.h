@@ -66,15 +66,17 @@ std::optional<CalibrationMessage> ParseCalibration(MessageForm form,
                                                    std::span<const std::uint8_t> bytes);
 
 // Parse messages of ROS, field after field. Those of ROS 1 have no gaps (wiki.ros.org/msg). Those
-// of ROS 2 are little-endian CDR (OMG, DDS-XTypes 1.3, 7.4.3): numbers at multiples of their size,
-// texts with a zero at their end, all after four bytes that name the encoding. Return nullopt if
-// the bytes end early, or if these four bytes name another encoding.
+// of ROS 2 are CDR of either byte order (OMG, DDS-XTypes 1.3, 7.4.3): numbers at multiples of their
+// size, texts with a zero at their end, all after four bytes that name the encoding. Return nullopt
+// if the bytes end early, or if these four bytes name another encoding.
 std::optional<ImageMessage> ParseRosImage(bool cdr,
                                           bool compressed,
                                           std::span<const std::uint8_t> bytes);
 std::optional<CalibrationMessage> ParseRosCalibration(bool cdr,
                                                       std::span<const std::uint8_t> bytes);
 std::optional<InertialMessage> ParseRosInertial(bool cdr, std::span<const std::uint8_t> bytes);
+// Nanoseconds of a rosgraph_msgs/Clock.
+std::optional<std::int64_t> ParseRosClock(bool cdr, std::span<const std::uint8_t> bytes);
 
 // Parse messages of Foxglove's schemas (foxglove.RawImage, CompressedImage, CameraCalibration) in
 // the wire format of Protocol Buffers (protobuf.dev/programming-guides/encoding). Unknown fields

@@ -5,6 +5,7 @@
 #include "plumbline/io/recordings/image_message.h"
 #include "plumbline/io/recordings/transform_message.h"
 
+#include <bit>
 #include <cmath>
 #include <string_view>
 
@@ -16,25 +17,30 @@ using ByteSpan = std::span<const std::uint8_t>;
 constexpr std::size_t kCdrHeader = 4;
 constexpr std::uint32_t kMostCoefficients = 64;
 
-bool IsLittleEndianCdr(ByteSpan bytes) {
-  return bytes.size() >= kCdrHeader && bytes[0] == 0 && bytes[1] == 1;
-}
+// CDR_BE or CDR_LE.
+bool IsCdr(ByteSpan bytes) { return bytes.size() >= kCdrHeader && bytes[0] == 0 && bytes[1] <= 1; }
 
 // Reads the fields of a message in their order.
 class FieldReader {
  public:
-  FieldReader(bool cdr, ByteSpan bytes) : cdr_(cdr), cursor_(cdr ? bytes.subspan(4) : bytes) {}
+  // With `cdr`, the bytes must be of IsCdr.
+  FieldReader(bool cdr, ByteSpan bytes)
+      : cdr_(cdr),
+        big_endian_(cdr && bytes[1] == 0),
+        cursor_(cdr ? bytes.subspan(kCdrHeader) : bytes) {}
 
   bool ok() const { return cursor_.ok(); }
 
   std::uint8_t U8() { return cursor_.U8(); }
   std::uint32_t U32() {
     Align(4);
-    return cursor_.U32();
+    const std::uint32_t value = cursor_.U32();
+    return big_endian_ ? __builtin_bswap32(value) : value;
   }
   double F64() {
     Align(8);
-    return cursor_.F64();
+    const std::uint64_t value = cursor_.U64();
+    return std::bit_cast<double>(big_endian_ ? __builtin_bswap64(value) : value);
   }
   std::string_view Text() {
     std::string_view text = cursor_.Text(U32());
@@ -43,6 +49,13 @@ class FieldReader {
   }
   ByteSpan Bytes() { return cursor_.Take(U32()); }
 
+  // Nanoseconds. ROS 1 counts seconds without a sign, ROS 2 with one.
+  std::int64_t Time() {
+    const std::uint32_t count = U32();
+    const std::int64_t seconds = cdr_ ? std::int64_t{static_cast<std::int32_t>(count)} : count;
+    return seconds * kNsPerSecond + U32();
+  }
+
   // Reads std_msgs/Header.
   struct Header {
     std::int64_t stamp_ns = 0;
@@ -50,11 +63,8 @@ class FieldReader {
   };
   Header ReadHeader() {
     if (!cdr_) U32();  // ROS 1 has the number of the message here
-    const std::uint32_t count = U32();
-    // ROS 1 counts seconds without a sign, ROS 2 with one.
-    const std::int64_t seconds = cdr_ ? std::int64_t{static_cast<std::int32_t>(count)} : count;
-    const std::int64_t nanoseconds = U32();
-    return {seconds * kNsPerSecond + nanoseconds, Text()};
+    const std::int64_t stamp_ns = Time();
+    return {stamp_ns, Text()};
   }
 
  private:
@@ -62,14 +72,14 @@ class FieldReader {
     if (cdr_) cursor_.Align(size);
   }
 
-  bool cdr_;
+  bool cdr_, big_endian_;
   ByteCursor cursor_;
 };
 
 }  // namespace
 
 std::optional<ImageMessage> ParseRosImage(bool cdr, bool compressed, ByteSpan bytes) {
-  if (cdr && !IsLittleEndianCdr(bytes)) return std::nullopt;
+  if (cdr && !IsCdr(bytes)) return std::nullopt;
   FieldReader fields(cdr, bytes);
   ImageMessage image;
   image.compressed = compressed;
@@ -90,7 +100,7 @@ std::optional<ImageMessage> ParseRosImage(bool cdr, bool compressed, ByteSpan by
 }
 
 std::optional<CalibrationMessage> ParseRosCalibration(bool cdr, ByteSpan bytes) {
-  if (cdr && !IsLittleEndianCdr(bytes)) return std::nullopt;
+  if (cdr && !IsCdr(bytes)) return std::nullopt;
   FieldReader fields(cdr, bytes);
   CalibrationMessage camera;
   fields.ReadHeader();
@@ -114,7 +124,7 @@ std::optional<CalibrationMessage> ParseRosCalibration(bool cdr, ByteSpan bytes) 
 }
 
 std::optional<InertialMessage> ParseRosInertial(bool cdr, ByteSpan bytes) {
-  if (cdr && !IsLittleEndianCdr(bytes)) return std::nullopt;
+  if (cdr && !IsCdr(bytes)) return std::nullopt;
   constexpr int kOrientation = 4, kCovariance = 9;
   FieldReader fields(cdr, bytes);
   InertialMessage message;
@@ -132,8 +142,15 @@ std::optional<InertialMessage> ParseRosInertial(bool cdr, ByteSpan bytes) {
   return fields.ok() ? std::optional(message) : std::nullopt;
 }
 
+std::optional<std::int64_t> ParseRosClock(bool cdr, ByteSpan bytes) {
+  if (cdr && !IsCdr(bytes)) return std::nullopt;
+  FieldReader fields(cdr, bytes);
+  const std::int64_t stamp_ns = fields.Time();
+  return fields.ok() ? std::optional(stamp_ns) : std::nullopt;
+}
+
 std::optional<std::vector<TransformMessage>> ParseRosTransforms(bool cdr, ByteSpan bytes) {
-  if (cdr && !IsLittleEndianCdr(bytes)) return std::nullopt;
+  if (cdr && !IsCdr(bytes)) return std::nullopt;
   FieldReader fields(cdr, bytes);
   std::vector<TransformMessage> transforms;
   const std::uint32_t count = fields.U32();
