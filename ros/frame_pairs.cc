@@ -7,13 +7,13 @@
 
 namespace plumbline::ros_node {
 
-void FramePairs::Add(Queue& queue, std::int64_t stamp_ns, const Bytes& message) {
+void FramePairs::Add(Queue& queue, std::int64_t stamp_ns, Bytes message) {
   // A bag that is played anew: those from before have no partners to come.
   if (!queue.empty() && stamp_ns < queue.back().stamp_ns) {
     first_.clear();
     second_.clear();
   }
-  queue.push_back({stamp_ns, message});
+  queue.push_back({stamp_ns, std::move(message)});
   while (approximate_ ? TakeNearest() : TakeExact()) {
   }
   if (queue.size() > queue_size_) queue.pop_front();

@@ -23,8 +23,10 @@ class FramePairs {
   FramePairs(bool approximate, std::size_t queue_size, Take take)
       : approximate_(approximate), queue_size_(queue_size), take_(std::move(take)) {}
 
-  void AddFirst(std::int64_t stamp_ns, const Bytes& message) { Add(first_, stamp_ns, message); }
-  void AddSecond(std::int64_t stamp_ns, const Bytes& message) { Add(second_, stamp_ns, message); }
+  void AddFirst(std::int64_t stamp_ns, Bytes message) { Add(first_, stamp_ns, std::move(message)); }
+  void AddSecond(std::int64_t stamp_ns, Bytes message) {
+    Add(second_, stamp_ns, std::move(message));
+  }
 
  private:
   struct Message {
@@ -33,7 +35,7 @@ class FramePairs {
   };
   using Queue = std::deque<Message>;
 
-  void Add(Queue& queue, std::int64_t stamp_ns, const Bytes& message);
+  void Add(Queue& queue, std::int64_t stamp_ns, Bytes message);
   // Takes one pair, or leaves out what has none; false if more messages are needed for either.
   bool TakeExact();
   bool TakeNearest();

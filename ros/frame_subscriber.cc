@@ -37,11 +37,11 @@ FrameSubscriber::FrameSubscriber(Transport& transport,
                    take_({{left_.name, *ParseImage(left_.form, left)},
                           TopicImage{second_.name, *ParseImage(second_.form, second)}});
                  });
-  SubscribeImages(left_, [this](const ImageMessage& image, const Bytes& bytes) {
-    pairs_->AddFirst(image.stamp_ns, bytes);
+  SubscribeImages(left_, [this](const ImageMessage& image, Bytes bytes) {
+    pairs_->AddFirst(image.stamp_ns, std::move(bytes));
   });
-  SubscribeImages(second_, [this](const ImageMessage& image, const Bytes& bytes) {
-    pairs_->AddSecond(image.stamp_ns, bytes);
+  SubscribeImages(second_, [this](const ImageMessage& image, Bytes bytes) {
+    pairs_->AddSecond(image.stamp_ns, std::move(bytes));
   });
 }
 
@@ -58,7 +58,7 @@ FrameSubscriber::ImageTopic FrameSubscriber::TopicOf(const std::string& name,
 }
 
 void FrameSubscriber::SubscribeImages(const ImageTopic& topic,
-                                      std::function<void(const ImageMessage&, const Bytes&)> use) {
+                                      std::function<void(const ImageMessage&, Bytes)> use) {
   const bool is_left = &topic == &left_;
   const std::string& image_transport =
       is_left || parameters_.IsStereo() ? parameters_.image_transport : parameters_.depth_transport;
@@ -67,10 +67,10 @@ void FrameSubscriber::SubscribeImages(const ImageTopic& topic,
   settings.type = topic.type;
   settings.queue_size = parameters_.queue_size;
   settings.sensor_data = true;
-  transport_.Subscribe(settings, [this, &topic, use = std::move(use)](const Bytes& bytes) {
+  transport_.Subscribe(settings, [this, settings, &topic, use = std::move(use)](Bytes bytes) {
     const auto image = ParseImage(topic.form, bytes);
-    if (!image) return Refuse(topic.name, topic.type, bytes);
-    use(*image, bytes);
+    if (!image) return log_.Refuse(settings, bytes.size());
+    use(*image, std::move(bytes));  // the image points into the same bytes
   });
 }
 
@@ -81,7 +81,7 @@ void FrameSubscriber::SubscribeInfo(const std::string& name, std::optional<Topic
   settings.sensor_data = true;
   transport_.Subscribe(settings, [this, settings, &camera](const Bytes& bytes) {
     const auto message = ParseRosCalibration(transport_.UsesCdr(), bytes);
-    if (!message) return Refuse(settings.name, settings.type, bytes);
+    if (!message) return log_.Refuse(settings, bytes.size());
     camera = TopicCamera{settings.name, *message};
   });
 }
@@ -94,22 +94,11 @@ void FrameSubscriber::SubscribeInertial() {
   settings.sensor_data = true;
   transport_.Subscribe(settings, [this, settings](const Bytes& bytes) {
     if (!ParseRosInertial(transport_.UsesCdr(), bytes)) {
-      return Refuse(settings.name, settings.type, bytes);
+      return log_.Refuse(settings, bytes.size());
     }
     if (++inertial_count_ > 1) return;
     log_.Say(Severity::kInfo, settings.name + ": measurements come, and are not used yet");
   });
-}
-
-void FrameSubscriber::Refuse(const std::string& topic,
-                             const std::string& type,
-                             const Bytes& bytes) {
-  log_.Throttled(
-      Severity::kError,
-      fmt::format("a message is left out: {}: expected a {}, found {} bytes that are none",
-                  topic,
-                  type,
-                  bytes.size()));
 }
 
 std::optional<FrameSubscriber::Cameras> FrameSubscriber::FindCameras() const {

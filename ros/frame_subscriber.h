@@ -54,10 +54,9 @@ class FrameSubscriber {
 
   ImageTopic TopicOf(const std::string& name, const std::string& image_transport) const;
   void SubscribeImages(const ImageTopic& topic,
-                       std::function<void(const ImageMessage&, const Bytes&)> use);
+                       std::function<void(const ImageMessage&, Bytes)> use);
   void SubscribeInfo(const std::string& name, std::optional<TopicCamera>& camera);
   void SubscribeInertial();
-  void Refuse(const std::string& topic, const std::string& type, const Bytes& bytes);
 
   Transport& transport_;
   NodeLog& log_;

@@ -4,12 +4,11 @@
 
 #include "transport.h"
 #include <chrono>
-#include <cstdint>
+#include <cstddef>
 #include <map>
 #include <mutex>
-#include <source_location>
 #include <string>
-#include <utility>
+#include <tuple>
 
 namespace plumbline::ros_node {
 
@@ -19,26 +18,36 @@ class NodeLog {
   explicit NodeLog(Transport& transport) : transport_(transport) {}
 
   void Say(Severity severity, const std::string& line) { transport_.Log(severity, line); }
-  // The same, every five seconds at most for each place in the code.
+  // The same, every five seconds at most for each place in the code, and each topic if it names
+  // one.
   void Throttled(Severity severity,
                  const std::string& line,
-                 std::source_location place = std::source_location::current()) {
+                 const std::string& topic = "",
+                 const char* file = __builtin_FILE(),
+                 int line_of_file = __builtin_LINE()) {
     constexpr std::chrono::seconds kInterval{5};
     {
       const std::lock_guard lock(mutex_);
       const auto now = std::chrono::steady_clock::now();
-      const auto [last, is_first] = last_.try_emplace({place.file_name(), place.line()}, now);
+      const auto [last, is_first] = last_.try_emplace({file, line_of_file, topic}, now);
       if (!is_first && now - last->second < kInterval) return;
       last->second = now;
     }
     Say(severity, line);
   }
+  // A message of a topic that is none of its type (throttled).
+  void Refuse(const TopicSettings& topic, std::size_t bytes) {
+    Throttled(Severity::kError,
+              "a message is left out: " + topic.name + ": expected a " + topic.type + ", found " +
+                  std::to_string(bytes) + " bytes that are none",
+              topic.name);
+  }
 
  private:
   Transport& transport_;
   std::mutex mutex_;
-  std::map<std::pair<std::string, std::uint_least32_t>, std::chrono::steady_clock::time_point>
-      last_;
+  using Place = std::tuple<std::string, int, std::string>;
+  std::map<Place, std::chrono::steady_clock::time_point> last_;
 };
 
 }  // namespace plumbline::ros_node

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pose_publisher.h"
 
+#include "plumbline/base/printable.h"
+
 #include "messages.h"
 #include <utility>
 #include <vector>
@@ -38,10 +40,10 @@ PosePublisher::PosePublisher(Transport& transport, NodeLog& log, const NodeParam
 
 void PosePublisher::ListenTo(const std::string& topic, bool is_static) {
   const TopicSettings settings{transport_.Resolve(topic), "tf2_msgs/TFMessage", 100, is_static};
-  transport_.Subscribe(settings, [this, topic, is_static](const Bytes& bytes) {
+  transport_.Subscribe(settings, [this, settings, is_static](const Bytes& bytes) {
     const auto transforms = ParseRosTransforms(transport_.UsesCdr(), bytes);
     if (transforms) return transforms_.Add(*transforms, is_static);
-    log_.Throttled(Severity::kError, "a message of " + topic + " is left out: it is broken");
+    log_.Refuse(settings, bytes.size());
   });
 }
 
@@ -57,8 +59,8 @@ std::optional<Rigid3> PosePublisher::FindMounting(const std::string& camera_fram
            fmt::format("tf knows no transform from {} to {} ({}): the base is taken to be in the "
                        "camera and to look where it looks",
                        parameters_.base_frame,
-                       camera_frame,
-                       found.error()));
+                       Printable(camera_frame),
+                       Printable(found.error())));
   if (tf_static_) {
     const TransformMessage mounting{0, parameters_.base_frame, camera_frame, ForwardLooking()};
     tf_static_->Publish(TransformsMessage(transport_.UsesCdr(), {mounting}));
@@ -113,7 +115,7 @@ void PosePublisher::PublishTransforms(const BasePose& pose, std::int64_t stamp_n
           fmt::format("no transform from {0} to {1}: nothing tells where {0} is in the map ({2})",
                       odom,
                       base,
-                      odom_from_base.error()));
+                      Printable(odom_from_base.error())));
       return;
     }
     map_from_odom = pose.map_from_base * Inverse(*odom_from_base);

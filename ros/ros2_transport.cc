@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ros2_transport.h"
 
+#include "plumbline/io/recordings/image_message.h"
+
 #include "message_writer.h"
+#include "node_log.h"
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <list>
-#include <mutex>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -36,19 +38,22 @@ namespace rtps = eprosima::fastrtps::rtps;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kOk = 0;
-constexpr std::uint32_t kFirstSize = 1024;  // bytes of a message before one is known
+// Bytes of messages that are taken from others: images and the rest. A fragment says how large the
+// whole is, and memory for it is taken at once.
+constexpr std::uint32_t kLargestImage = 64U << 20U, kLargestMessage = 1U << 20U;
 constexpr std::uint32_t kSocketBuffer = 8U
                                         << 20U;  // bytes; a few images, as far as the system has it
 
 constexpr std::uint32_t kMostLocalPeers = 10;
 constexpr double kSecondsBetweenWarnings = 5;
 
-// Messages of any type, as their bytes.
+// Messages of any type, as their bytes. m_typeSize is the largest that is taken; of what is
+// published it is none.
 class RawType : public dds::TopicDataType {
  public:
   explicit RawType(const std::string& name) {
     setName(name.c_str());
-    m_typeSize = kFirstSize;
+    m_typeSize = name.ends_with("Image_") ? kLargestImage : kLargestMessage;
     auto_fill_type_object(false);
     auto_fill_type_information(false);
   }
@@ -79,6 +84,8 @@ std::string DdsTypeOf(const std::string& type) {
   return type.substr(0, slash) + "::msg::dds_::" + type.substr(slash + 1) + "_";
 }
 
+std::vector<rtps::octet> OctetsOf(const std::string& text) { return {text.begin(), text.end()}; }
+
 template <class Qos>
 void SetQos(const TopicSettings& topic, bool reliable, Qos& qos) {
   qos.reliability().kind =
@@ -91,7 +98,6 @@ void SetQos(const TopicSettings& topic, bool reliable, Qos& qos) {
   qos.resource_limits().max_instances = 1;
   qos.resource_limits().max_samples_per_instance = topic.queue_size;
   qos.resource_limits().allocated_samples = 1;
-  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
 }
 
 template <class T>
@@ -118,11 +124,13 @@ class Ros2Publication : public Publication {
 
 class Ros2Transport::Implementation {
  public:
-  explicit Implementation(const Ros2Settings& settings) : settings_(settings) {
+  using Receive = std::function<void(Bytes, const dds::SampleInfo&)>;
+
+  Implementation(const Ros2Settings& settings, Transport& transport)
+      : settings_(settings), log_(transport) {
     dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
     qos.name(settings.name);
-    const std::string enclave = "enclave=/;";
-    qos.user_data().data_vec(std::vector<rtps::octet>(enclave.begin(), enclave.end()));
+    qos.user_data().data_vec(OctetsOf("enclave=/;"));
     const auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
     udp->receiveBufferSize = udp->sendBufferSize = kSocketBuffer;
     if (settings.localhost_only) {
@@ -154,12 +162,21 @@ class Ros2Transport::Implementation {
 
   const Ros2Settings& settings() const { return settings_; }
 
-  void Subscribe(const TopicSettings& topic, Receive receive) {
+  void Subscribe(const TopicSettings& topic, Transport::Receive receive) {
+    MakeReader("rt" + topic.name,
+               topic,
+               [receive = std::move(receive)](Bytes bytes, const dds::SampleInfo&) {
+                 receive(std::move(bytes));
+               });
+  }
+
+  void MakeReader(const std::string& topic_name, const TopicSettings& topic, Receive receive) {
     dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
     SetQos(topic, !topic.sensor_data || settings_.reliable, qos);
-    dds::DataReader* reader = OrFail(
-        subscriber_->create_datareader(MakeTopic("rt" + topic.name, DdsTypeOf(topic.type)), qos),
-        "a subscription of " + topic.name);
+    qos.endpoint().history_memory_policy = rtps::PREALLOCATED_MEMORY_MODE;
+    dds::DataReader* reader =
+        OrFail(subscriber_->create_datareader(MakeTopic(topic_name, DdsTypeOf(topic.type)), qos),
+               "a subscription of " + topic.name);
     dds::StatusCondition& status = reader->get_statuscondition();
     dds::StatusMask awaited = dds::StatusMask::data_available();
     awaited << dds::StatusMask::requested_incompatible_qos();
@@ -169,17 +186,18 @@ class Ros2Transport::Implementation {
     subscriptions_.push_back({topic.name, reader, std::move(receive)});
   }
 
-  dds::DataWriter* MakeWriter(const std::string& topic_name,
-                              const std::string& type,
-                              const TopicSettings& topic) {
+  dds::DataWriter* MakeWriter(const std::string& topic_name, const TopicSettings& topic) {
     dds::DataWriterQos qos = dds::DATAWRITER_QOS_DEFAULT;
     SetQos(topic, true, qos);
-    qos.publish_mode().kind = dds::ASYNCHRONOUS_PUBLISH_MODE;  // messages of any size
-    return OrFail(publisher_->create_datawriter(MakeTopic(topic_name, type), qos),
+    qos.endpoint().history_memory_policy = rtps::DYNAMIC_RESERVE_MEMORY_MODE;
+    // What is latched may have any size. All else fits a datagram, and goes out at once.
+    qos.publish_mode().kind =
+        topic.latched ? dds::ASYNCHRONOUS_PUBLISH_MODE : dds::SYNCHRONOUS_PUBLISH_MODE;
+    return OrFail(publisher_->create_datawriter(MakeTopic(topic_name, DdsTypeOf(topic.type)), qos),
                   "a publication of " + topic_name);
   }
   std::unique_ptr<Publication> Advertise(const TopicSettings& topic) {
-    dds::DataWriter* writer = MakeWriter("rt" + topic.name, DdsTypeOf(topic.type), topic);
+    dds::DataWriter* writer = MakeWriter("rt" + topic.name, topic);
     writers_.push_back(writer);
     return std::make_unique<Ros2Publication>(writer);
   }
@@ -190,17 +208,17 @@ class Ros2Transport::Implementation {
     timers_.push_back({Now() + period, period, std::move(work)});
   }
 
-  void Run(const std::function<bool()>& stop, const std::function<void(const std::string&)>& warn) {
+  void Run(const std::function<bool()>& stop) {
     Introduce();
     Repeat(kSecondsBetweenWarnings, [&] {
-      for (Subscription& subscription : subscriptions_) WarnOfLosses(subscription, warn);
+      for (Subscription& subscription : subscriptions_) WarnOfLosses(subscription);
     });
     while (!stop()) {
       dds::ConditionSeq active;
       waits_.wait(active, eprosima::fastrtps::Duration_t(0, 100'000'000));
       for (Subscription& subscription : subscriptions_) {
-        Receive(subscription);
-        CheckQos(subscription, warn);
+        ReceiveAll(subscription);
+        CheckQos(subscription);
         CountLosses(subscription);
       }
       for (Timer& timer : timers_) {
@@ -211,14 +229,14 @@ class Ros2Transport::Implementation {
         timer.work();
       }
     }
-    for (Subscription& subscription : subscriptions_) WarnOfLosses(subscription, warn);
+    for (Subscription& subscription : subscriptions_) WarnOfLosses(subscription);
   }
 
  private:
   struct Subscription {
     std::string topic;
     dds::DataReader* reader = nullptr;
-    Transport::Receive receive;
+    Receive receive;
     Bytes bytes = {};
     std::int64_t lost = 0;  // not yet told
   };
@@ -236,21 +254,21 @@ class Ros2Transport::Implementation {
     return OrFail(participant_->create_topic(name, type, dds::TOPIC_QOS_DEFAULT), "topic " + name);
   }
 
-  static void Receive(Subscription& subscription) {
+  static void ReceiveAll(Subscription& subscription) {
     dds::SampleInfo info;
     while (subscription.reader->take_next_sample(&subscription.bytes, &info)() == kOk) {
-      if (info.valid_data) subscription.receive(subscription.bytes);
+      if (info.valid_data) subscription.receive(std::exchange(subscription.bytes, {}), info);
     }
   }
 
-  static void CheckQos(const Subscription& subscription,
-                       const std::function<void(const std::string&)>& warn) {
+  void CheckQos(const Subscription& subscription) {
     dds::RequestedIncompatibleQosStatus status;
     subscription.reader->get_requested_incompatible_qos_status(status);
     if (status.total_count_change == 0) return;
-    warn(subscription.topic +
-         ": a publisher has another QoS, and nothing of it comes (parameter reliability: "
-         "best_effort takes both kinds)");
+    log_.Say(Severity::kWarning,
+             subscription.topic +
+                 ": a publisher has another QoS, and nothing of it comes (parameter reliability: "
+                 "best_effort takes both kinds)");
   }
 
   Clock::time_point Now() const { return settings_.use_sim_time ? sim_time_ : Clock::now(); }
@@ -258,12 +276,10 @@ class Ros2Transport::Implementation {
   void ListenToClock() {
     TopicSettings topic{settings_.Resolve("/clock"), "rosgraph_msgs/Clock"};
     topic.sensor_data = true;
-    Subscribe(topic, [this](const Bytes& message) {
-      std::uint32_t fields[3];  // the encoding, seconds, nanoseconds
-      if (message.size() < sizeof(fields)) return;
-      std::memcpy(fields, message.data(), sizeof(fields));
-      sim_time_ = Clock::time_point(std::chrono::seconds(static_cast<std::int32_t>(fields[1])) +
-                                    std::chrono::nanoseconds(fields[2]));
+    Subscribe(topic, [this, topic](const Bytes& message) {
+      const auto now_ns = ParseRosClock(true, message);
+      if (!now_ns) return log_.Refuse(topic, message.size());
+      sim_time_ = Clock::time_point(std::chrono::nanoseconds(*now_ns));
     });
   }
 
@@ -273,23 +289,21 @@ class Ros2Transport::Implementation {
     subscription.lost += status.total_count_change;
   }
 
-  static void WarnOfLosses(Subscription& subscription,
-                           const std::function<void(const std::string&)>& warn) {
+  void WarnOfLosses(Subscription& subscription) {
     const std::int64_t lost = std::exchange(subscription.lost, 0);
     if (lost == 0) return;
-    warn(
-        fmt::format("{}: {} messages were lost on the way (net.core.rmem_max, or the parameter "
-                    "reliability)",
-                    subscription.topic,
-                    lost));
+    log_.Say(Severity::kWarning,
+             fmt::format("{}: {} messages were lost on the way (net.core.rmem_max, or the "
+                         "parameter reliability)",
+                         subscription.topic,
+                         lost));
   }
 
   // Tells which node the endpoints belong to.
   void Introduce() {
-    TopicSettings topic;
+    TopicSettings topic{"ros_discovery_info", "rmw_dds_common/ParticipantEntitiesInfo"};
     topic.latched = true;
-    dds::DataWriter* writer = MakeWriter(
-        "ros_discovery_info", "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_", topic);
+    dds::DataWriter* writer = MakeWriter(topic.name, topic);
     MessageWriter message(true);
     const auto gid = [&](const rtps::GUID_t& guid) {
       for (const rtps::octet part : guid.guidPrefix.value) message.U8(part);
@@ -308,6 +322,7 @@ class Ros2Transport::Implementation {
   }
 
   Ros2Settings settings_;
+  NodeLog log_;
   dds::DomainParticipant* participant_ = nullptr;
   dds::Publisher* publisher_ = nullptr;
   dds::Subscriber* subscriber_ = nullptr;
@@ -319,12 +334,10 @@ class Ros2Transport::Implementation {
 };
 
 Ros2Transport::Ros2Transport(const Ros2Settings& settings)
-    : implementation_(std::make_unique<Implementation>(settings)) {}
+    : implementation_(std::make_unique<Implementation>(settings, *this)) {}
 Ros2Transport::~Ros2Transport() = default;
 
-void Ros2Transport::Run(const std::function<bool()>& stop) {
-  implementation_->Run(stop, [this](const std::string& line) { Log(Severity::kWarning, line); });
-}
+void Ros2Transport::Run(const std::function<bool()>& stop) { implementation_->Run(stop); }
 std::string Ros2Transport::Resolve(const std::string& name) const {
   return implementation_->settings().Resolve(name);
 }

@@ -11,8 +11,8 @@ namespace plumbline::ros_node {
 namespace {
 
 constexpr std::int64_t kMemoryNs = 10 * kNsPerSecond;
-// More are not taken: names come from the network.
-constexpr std::size_t kMostFrames = 10'000;
+// More are not taken, or the oldest go: names and stamps come from the network.
+constexpr std::size_t kMostFrames = 10'000, kMostMotions = 20'000;
 
 std::optional<Rigid3> At(const std::map<std::int64_t, Rigid3>& motions, std::int64_t stamp_ns) {
   const auto after = motions.lower_bound(stamp_ns);
@@ -49,6 +49,7 @@ void TransformTree::Add(const std::vector<TransformMessage>& transforms, bool is
     frame.is_static = is_static;
     motions[transform.stamp_ns] = transform.parent_from_child;
     motions.erase(motions.begin(), motions.lower_bound(motions.rbegin()->first - kMemoryNs));
+    if (motions.size() > kMostMotions) motions.erase(motions.begin());
   }
 }
 

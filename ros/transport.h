@@ -41,7 +41,7 @@ class Publication {
 
 class Transport {
  public:
-  using Receive = std::function<void(const Bytes& message)>;
+  using Receive = std::function<void(Bytes message)>;
 
   virtual ~Transport() = default;
 

@@ -5,13 +5,13 @@
 
 #include "dds_peer.h"
 #include "messages.h"
+#include "mono_node_test.h"
 #include "ros2_node.h"
 #include "tests/support/data_folder.h"
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -32,60 +32,7 @@ using CompressedImage = sensor_msgs_msg_dds__CompressedImage_;
 using CameraInfo = sensor_msgs_msg_dds__CameraInfo_;
 using Imu = sensor_msgs_msg_dds__Imu_;
 using TransformsOf = tf2_msgs_msg_dds__TFMessage_;
-
-const std::vector<std::string> kMonoArguments = {
-    "image:=/cam0/image_raw", "-p", "camera:=euroc", "-p", "options.slam.mode:=lockstep"};
-
-std::vector<std::string> MonoArguments(const std::vector<std::string>& more) {
-  std::vector<std::string> all = kMonoArguments;
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
-}
-
-// Resident memory of a process, in MB.
-double MemoryOf(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/statm");
-  double all = 0, resident = 0;
-  file >> all >> resident;
-  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
-}
-
-// A node with one camera, and what speaks to it.
-class Ros2ConditionsTest : public testing::Test {
- protected:
-  void SetUp() override {
-    const auto sequence = FindData("euroc/MH_01_easy_first250");
-    if (!sequence) GTEST_SKIP() << "the sequence is not there";
-    dataset_ = OpenDataset(*sequence, {});
-  }
-
-  // Publishes an image; `shift_ns` is added to its stamp.
-  void Publish(dds_entity_t writer, std::size_t index, std::int64_t shift_ns = 0) const {
-    const auto frame = dataset_->Read(index);
-    ASSERT_TRUE(frame);
-    std::vector<std::uint8_t> pixels;
-    const DdsImage message = DdsImageOf(frame->left, frame->stamp_ns + shift_ns, pixels);
-    dds_write(writer, &message);
-  }
-  // Publishes one image after the other until the node says `line`.
-  [[nodiscard]] bool PublishUntilSaid(dds_entity_t writer,
-                                      const Ros2Node& node,
-                                      const std::string& line,
-                                      std::int64_t shift_ns = 0) const {
-    std::size_t index = 0;
-    return WaitUntil([&] {
-      Publish(writer, index++ % dataset_->size(), shift_ns);
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      return node.Said().find(line) != std::string::npos;
-    });
-  }
-
-  std::unique_ptr<Dataset> dataset_;
-};
-
-dds_entity_t MakeImageWriter(DdsPeer& peer, const std::string& topic, PeerQos qos = {}) {
-  return peer.MakeWriter(topic, sensor_msgs_msg_dds__Image__desc, qos);
-}
+using Ros2ConditionsTest = MonoNodeTest;
 
 TEST_F(Ros2ConditionsTest, PublishesTheMountingThatItAssumesAndCountsMeasurements) {
   DdsPeer peer(Domain());
@@ -93,13 +40,14 @@ TEST_F(Ros2ConditionsTest, PublishesTheMountingThatItAssumesAndCountsMeasurement
   const auto images = MakeImageWriter(peer, "rt/cam0/image_raw");
   const auto imu = peer.MakeWriter("rt/imu", sensor_msgs_msg_dds__Imu__desc);
   ASSERT_TRUE(WaitUntil([&] { return DdsPeer::HasReader(images) && DdsPeer::HasReader(imu); }));
-  for (int i = 0; i < 20; ++i) {
+  ASSERT_TRUE(WaitUntil([&] {
     Imu message{};
     std::string frame = "imu0";
     message.header.frame_id = frame.data();
     message.linear_acceleration.z = 9.81;
     dds_write(imu, &message);
-  }
+    return node.Said().find("measurements come, and are not used yet") != std::string::npos;
+  })) << node.Said();
   ASSERT_TRUE(PublishUntilSaid(images, node, "tf knows no transform from base_link to cam0"))
       << node.Said();
   // Transient local: who comes later gets it.
@@ -123,8 +71,7 @@ TEST_F(Ros2ConditionsTest, PublishesTheMountingThatItAssumesAndCountsMeasurement
            });
   })) << node.Said();
   EXPECT_EQ(node.Stop(), 0);
-  EXPECT_THAT(node.Said(), HasSubstr("/imu: measurements come, and are not used yet"));
-  EXPECT_THAT(node.Said(), HasSubstr("20 inertial measurements came"));
+  EXPECT_THAT(node.Said(), HasSubstr(" inertial measurements came"));
 }
 
 TEST_F(Ros2ConditionsTest, HearsNothingOfAnotherDomain) {

@@ -8,10 +8,12 @@
 #include "tests/e2e/program.h"
 #include <cstdint>
 #include <cstdlib>
-#include <optional>
+#include <fstream>
+#include <map>
 #include <string>
 #include <vector>
 
+#include <sched.h>
 #include <sys/prctl.h>
 
 namespace plumbline {
@@ -24,24 +26,46 @@ inline constexpr std::int64_t kSecond = 1'000'000'000;
 // Of this process alone.
 inline unsigned Domain() { return 1 + static_cast<unsigned>(::getpid()) % 200; }
 
+// Resident memory of a process, in MB.
+inline double MemoryOf(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/statm");
+  double all = 0, resident = 0;
+  file >> all >> resident;
+  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+// What a node finds around it.
+struct NodeSurroundings {
+  bool loopback = true;                            // ROS_LOCALHOST_ONLY
+  std::map<std::string, std::string> environment;  // more of it
+  // In a network of its own, with nothing but a loopback that is down; it waits for SIGCONT.
+  bool own_network = false;
+};
+
 // plumbline-ros2 while it runs, with its lines on standard error.
 class Ros2Node {
  public:
-  // `domain`: Domain() where it is not given.
-  explicit Ros2Node(std::vector<std::string> arguments, std::optional<unsigned> wanted = {}) {
+  explicit Ros2Node(std::vector<std::string> arguments, const NodeSurroundings& surroundings = {}) {
     arguments.insert(arguments.begin(), PLUMBLINE_ROS2_BINARY);
     std::vector<char*> argv;
     for (std::string& word : arguments) argv.push_back(word.data());
     argv.push_back(nullptr);
-    const std::string domain = std::to_string(wanted.value_or(Domain()));
+    const std::string domain = std::to_string(Domain());
     child_ = ::fork();
     if (child_ != 0) return;
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that fails leaves nothing running
     ::setenv("ROS_DOMAIN_ID", domain.c_str(), 1);
-    ::setenv("ROS_LOCALHOST_ONLY", "1", 1);
+    ::setenv("ROS_LOCALHOST_ONLY", surroundings.loopback ? "1" : "0", 1);
+    for (const auto& [name, value] : surroundings.environment) {
+      ::setenv(name.c_str(), value.c_str(), 1);
+    }
     const int file = ::open((folder_ / "stderr").c_str(), O_WRONLY | O_CREAT, 0600);
     ::dup2(file, STDOUT_FILENO);
     ::dup2(file, STDERR_FILENO);
+    if (surroundings.own_network) {
+      if (::unshare(CLONE_NEWNET) != 0) ::_exit(126);
+      ::raise(SIGSTOP);
+    }
     ::execv(argv[0], argv.data());
     ::_exit(127);
   }
@@ -56,6 +80,17 @@ class Ros2Node {
     if (child_ <= 0) return code_;
     ::kill(child_, SIGINT);
     return Wait();
+  }
+  // As a crash does; returns -1.
+  int Kill() {
+    ::kill(child_, SIGKILL);
+    return Wait();
+  }
+  // Waits for a signal that stops it without ending it, and returns it; -1 if it ended.
+  int WaitUntilStopped() const {
+    int status = 0;
+    ::waitpid(child_, &status, WUNTRACED);
+    return WIFSTOPPED(status) ? WSTOPSIG(status) : -1;
   }
   int Wait() {
     int status = 0;
