@@ -4,6 +4,7 @@
 #include "plumbline/io/recordings/image_message.h"
 
 #include "ros/frame_subscriber.h"
+#include "ros/inertial_queue.h"
 #include "ros/transform_tree.h"
 #include <array>
 #include <cstddef>
@@ -70,8 +71,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   parameters.approximate_sync = (data[0] & 8U) != 0;
   if (packed) parameters.image_transport = "compressed";
   if (packed) parameters.depth_transport = "compressedDepth";
+  InertialQueue samples(0.01, true);
   FrameSubscriber subscriber(
-      transport, log, parameters, [&](const FrameImages& images) { Take(images, !stereo); });
+      transport,
+      log,
+      parameters,
+      [&](const FrameImages& images) {
+        (void)samples.MustWait(images.left.message.stamp_ns, images.left.message.stamp_ns);
+        (void)samples.TakeUpTo(images.left.message.stamp_ns);
+        Take(images, !stereo);
+      },
+      [&](const InertialMessage& measured) {
+        if (const auto sample = SampleOf(measured)) samples.Add(*sample);
+      });
   const std::string under = packed ? "/compressed" : "";
   const std::array<std::string, 8> topics = {"/image" + under,
                                              "/left/image" + under,

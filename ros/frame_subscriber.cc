@@ -14,7 +14,8 @@ constexpr int kInertialQueue = 200;  // measurements: a fifth of a second and mo
 FrameSubscriber::FrameSubscriber(Transport& transport,
                                  NodeLog& log,
                                  const NodeParameters& parameters,
-                                 Take take)
+                                 Take take,
+                                 TakeInertial take_inertial)
     : transport_(transport), log_(log), parameters_(parameters), take_(std::move(take)) {
   const bool stereo = parameters.IsStereo();
   left_ = TopicOf(stereo ? "left/image" : "image", parameters.image_transport);
@@ -22,7 +23,7 @@ FrameSubscriber::FrameSubscriber(Transport& transport,
     SubscribeInfo(stereo ? "left/camera_info" : "camera_info", left_camera_);
     if (stereo) SubscribeInfo("right/camera_info", right_camera_);
   }
-  SubscribeInertial();
+  SubscribeInertial(std::move(take_inertial));
   if (parameters.IsMono()) {
     SubscribeImages(left_, [this](const ImageMessage& image, const Bytes&) {
       take_({{left_.name, image}, std::nullopt});
@@ -86,18 +87,16 @@ void FrameSubscriber::SubscribeInfo(const std::string& name, std::optional<Topic
   });
 }
 
-void FrameSubscriber::SubscribeInertial() {
+void FrameSubscriber::SubscribeInertial(TakeInertial take) {
   TopicSettings settings;
   settings.name = transport_.Resolve("imu");
   settings.type = "sensor_msgs/Imu";
   settings.queue_size = kInertialQueue;
   settings.sensor_data = true;
-  transport_.Subscribe(settings, [this, settings](const Bytes& bytes) {
-    if (!ParseRosInertial(transport_.UsesCdr(), bytes)) {
-      return log_.Refuse(settings, bytes.size());
-    }
-    if (++inertial_count_ > 1) return;
-    log_.Say(Severity::kInfo, settings.name + ": measurements come, and are not used yet");
+  transport_.Subscribe(settings, [this, settings, take = std::move(take)](const Bytes& bytes) {
+    const auto message = ParseRosInertial(transport_.UsesCdr(), bytes);
+    if (!message) return log_.Refuse(settings, bytes.size());
+    take(*message);
   });
 }
 

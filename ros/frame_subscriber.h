@@ -27,7 +27,7 @@ struct FrameImages {
 //   stereo   left/image, left/camera_info, right/image, right/camera_info
 //   rgbd     image, camera_info, depth (registered to image)
 //
-// and, of all, imu, whose measurements are counted and not used yet.
+// and, of all, imu, whose measurements are handed on.
 //
 // Two images belong together where their stamps are equal (exact), or nearest (approximate).
 // Messages that are none of their type are left out, with a line.
@@ -35,14 +35,19 @@ class FrameSubscriber {
  public:
   using Take = std::function<void(const FrameImages&)>;
 
-  FrameSubscriber(Transport& transport, NodeLog& log, const NodeParameters& parameters, Take take);
+  using TakeInertial = std::function<void(const InertialMessage&)>;
+
+  FrameSubscriber(Transport& transport,
+                  NodeLog& log,
+                  const NodeParameters& parameters,
+                  Take take,
+                  TakeInertial take_inertial);
 
   // What camera_info said of the cameras; nullopt until it has. The second one with stereo alone.
   using Cameras = std::pair<TopicCamera, std::optional<TopicCamera>>;
   std::optional<Cameras> FindCameras() const;
   // The resolved name of the first image topic, without the name of a transport of images.
   const std::string& topic() const { return left_.name; }
-  std::int64_t inertial_count() const { return inertial_count_; }
 
  private:
   // A topic of images.
@@ -56,7 +61,7 @@ class FrameSubscriber {
   void SubscribeImages(const ImageTopic& topic,
                        std::function<void(const ImageMessage&, Bytes)> use);
   void SubscribeInfo(const std::string& name, std::optional<TopicCamera>& camera);
-  void SubscribeInertial();
+  void SubscribeInertial(TakeInertial take);
 
   Transport& transport_;
   NodeLog& log_;
@@ -65,7 +70,6 @@ class FrameSubscriber {
   ImageTopic left_, second_;
   std::optional<TopicCamera> left_camera_, right_camera_;
   std::optional<FramePairs> pairs_;
-  std::int64_t inertial_count_ = 0;
 };
 
 }  // namespace plumbline::ros_node

@@ -68,11 +68,16 @@ class LiveSlam::Session {
  public:
   using Observer = std::function<void(const FrameRecord&, bool corrected)>;
 
-  Session(const Calibration& calibration, const SlamOptions& options, Observer observer)
+  Session(const Calibration& calibration,
+          const SlamOptions& options,
+          const std::optional<InertialCalibration>& inertial,
+          Observer observer)
       : system_(calibration, options),
         observer_(std::move(observer)),
         pipeline_(system_,
-                  [this](const FrameRecord& record, const FrameView&) { Observe(record); }) {}
+                  [this](const FrameRecord& record, const FrameView&) { Observe(record); }) {
+    if (inertial) system_.UseInertial(*inertial);
+  }
 
   System& system() { return system_; }
   Pipeline& pipeline() { return pipeline_; }
@@ -93,6 +98,9 @@ LiveSlam::LiveSlam(const LiveSlamSettings& settings, Observer observer)
       rectified_(settings.rectified),
       options_(ReadOptions(settings)),
       calibration_(FindCalibration(settings, sensor_)),
+      inertial_(FindInertialCalibration(settings.imu, settings.camera)),
+      samples_(inertial_ ? inertial_->time_offset.value_or(0) : 0,
+               options_.slam.mode != RunMode::kLive),
       observer_(std::move(observer)) {}
 LiveSlam::~LiveSlam() = default;
 
@@ -118,9 +126,29 @@ std::optional<double> LiveSlam::Feed(const TopicImage& left, const TopicImage* s
     stamps_[next.stamp_ns] = stamp_ns;
   }
   has_frames_ = true;
-  session_->pipeline().Feed(std::move(frame));
+  waiting_.push_back({stamp_ns, std::move(frame)});
+  HandOn(!inertial_);
   if (!next.jumped_back_ns) return std::nullopt;
   return 1e-9 * static_cast<double>(*next.jumped_back_ns);
+}
+
+void LiveSlam::AddInertial(const InertialSample& sample) {
+  if (!inertial_) return;
+  samples_.Add(sample);
+  HandOn(false);
+}
+
+void LiveSlam::HandOn(bool all) {
+  while (!waiting_.empty()) {
+    if (!all && samples_.MustWait(waiting_.front().source_ns, waiting_.back().source_ns)) return;
+    WaitingFrame next = std::move(waiting_.front());
+    waiting_.pop_front();
+    // Samples jump where the stamps of frames do.
+    std::vector<InertialSample> samples = samples_.TakeUpTo(next.source_ns);
+    for (InertialSample& one : samples) one.stamp_ns += next.frame.stamp_ns - next.source_ns;
+    session_->pipeline().AddInertial(samples);
+    session_->pipeline().Feed(std::move(next.frame));
+  }
 }
 
 SensorFrame LiveSlam::FrameOf(const TopicImage& left, const TopicImage* second) const {
@@ -137,7 +165,7 @@ SensorFrame LiveSlam::FrameOf(const TopicImage& left, const TopicImage* second) 
 
 std::unique_ptr<LiveSlam::Session> LiveSlam::MakeSession() {
   return std::make_unique<Session>(
-      *calibration_, options_, [this](const FrameRecord& r, bool corrected) {
+      *calibration_, options_, inertial_, [this](const FrameRecord& r, bool corrected) {
         Observe(r, corrected);
       });
 }
@@ -195,6 +223,7 @@ void LiveSlam::ViewMap(std::function<void(MapView)> take) {
 
 std::string LiveSlam::Save(const std::string& path) {
   if (!HasFrames()) throw InputError(path + ": expected frames before a map is saved, found none");
+  HandOn(true);
   session_->pipeline().Drain();
   SavedAtlas saved;
   session_->system().ReadMaps([&saved](const CurrentMaps& maps) { saved = maps.copy(); });
@@ -217,6 +246,7 @@ std::vector<std::string> LiveSlam::Load(const std::string& path, bool localize) 
   }
   std::unique_ptr<Session> session = MakeSession();
   std::vector<std::string> remarks = session->system().Continue(std::move(saved), localize);
+  waiting_.clear();
   session_ = std::move(session);
   loaded_.reset();
   unusable_.reset();
@@ -225,6 +255,7 @@ std::vector<std::string> LiveSlam::Load(const std::string& path, bool localize) 
 }
 
 void LiveSlam::Reset() {
+  waiting_.clear();
   session_.reset();
   loaded_.reset();
   unusable_.reset();

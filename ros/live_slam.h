@@ -9,8 +9,10 @@
 #include "plumbline/slam/options.h"
 #include "plumbline/slam/system.h"
 
+#include "inertial_queue.h"
 #include "sensor_messages.h"
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -31,6 +33,7 @@ struct LiveSlamSettings {
   std::optional<bool> rectified;
   std::string config;                // a file of options; empty: none
   std::vector<std::string> options;  // "features.line_count=100", applied after the file
+  std::string imu = "off";           // off, auto or a file (FindInertialCalibration)
 };
 
 // What came of a frame.
@@ -75,15 +78,21 @@ class LiveSlam {
                   const std::optional<TopicCamera>& right,
                   const std::string& image_topic);
 
-  // A frame; `second` is the right image or the depth image, null with one camera. Stamps that jump
-  // back go on behind the frame before (StampContinuity): then this returns by how many seconds
-  // they jumped. 16 bits of depth are millimetres. Where maps that wait do not fit the camera,
-  // every frame is refused for that reason until Load or Reset.
+  // Whether the gyroscope of an inertial sensor is used.
+  bool UsesInertial() const { return inertial_.has_value(); }
+  // A sample for the frames whose turns need it. It may let go frames that waited for it.
+  void AddInertial(const InertialSample& sample);
+
+  // A frame; with an inertial sensor it may wait for its samples (InertialQueue). `second` is the
+  // right image or the depth image, null with one camera. Stamps that jump back go on behind the
+  // frame before (StampContinuity): then this returns by how many seconds they jumped. 16 bits of
+  // depth are millimetres. Where maps that wait do not fit the camera, every frame is refused for
+  // that reason until Load or Reset.
   std::optional<double> Feed(const TopicImage& left, const TopicImage* second);
   bool HasFrames() const { return session_ && has_frames_; }
 
-  // Hands over the active map as mapping has it when it has done what was fed, in the thread that
-  // maps; nothing where there is no map. Waits until the frames so far are tracked.
+  // Hands over the active map as mapping has it when it has done what was tracked, in the thread
+  // that maps; nothing where there is no map. Waits until the frames so far are tracked.
   void ViewMap(std::function<void(MapView)> take);
 
   // Writes all maps into a file, and says what was written.
@@ -96,6 +105,14 @@ class LiveSlam {
  private:
   class Session;
 
+  // A frame with its stamp as it was fed.
+  struct WaitingFrame {
+    std::int64_t source_ns = 0;
+    SensorFrame frame;
+  };
+
+  // Hands frames to the pipeline with their samples: those that need not wait for more, or `all`.
+  void HandOn(bool all);
   SensorFrame FrameOf(const TopicImage& left, const TopicImage* second) const;
   std::unique_ptr<Session> MakeSession();
   std::unique_ptr<Session> Begin();
@@ -106,6 +123,9 @@ class LiveSlam {
   std::optional<bool> rectified_;
   SlamOptions options_;
   std::optional<Calibration> calibration_;
+  std::optional<InertialCalibration> inertial_;  // nullopt: none is used
+  InertialQueue samples_;
+  std::deque<WaitingFrame> waiting_;
   Observer observer_;
   std::optional<SavedAtlas> loaded_;  // to begin with
   bool localize_ = false;

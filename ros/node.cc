@@ -17,7 +17,16 @@ Node::Node(Transport& transport, const NodeParameters& parameters)
       maps_(transport),
       slam_(parameters_.slam,
             [this](const FrameOutcome& frame) { poses_.Publish(frame, *base_from_camera_); }),
-      frames_(transport, log_, parameters_, [this](const FrameImages& images) { Take(images); }) {
+      frames_(
+          transport,
+          log_,
+          parameters_,
+          [this](const FrameImages& images) { Take(images); },
+          [this](const InertialMessage& message) { TakeInertial(message); }) {
+  if (parameters_.slam.imu != "off" && !slam_.UsesInertial()) {
+    log_.Say(Severity::kWarning,
+             "imu: no camera file tells the place of the sensor; its measurements are not used");
+  }
   if (parameters_.load || parameters_.localize) {
     Warn(slam_.Load(parameters_.map_file, parameters_.localize));
   }
@@ -27,9 +36,8 @@ Node::Node(Transport& transport, const NodeParameters& parameters)
 
 Node::~Node() {
   slam_.Reset();  // its threads count
-  if (frames_.inertial_count() > 0) {
-    log_.Say(Severity::kInfo,
-             fmt::format("{} inertial measurements came", frames_.inertial_count()));
+  if (measurements_ > 0) {
+    log_.Say(Severity::kInfo, fmt::format("{} inertial measurements came", measurements_));
   }
   if (frames_fed_ == 0) return;
   log_.Say(Severity::kInfo,
@@ -66,6 +74,24 @@ void Node::Take(const FrameImages& images) {
              fmt::format("stamps jump back by {:.3f} s; the camera is looked for in the map, or "
                          "another map begins",
                          *jumped));
+  } catch (const InputError& error) {
+    log_.Throttled(Severity::kError, fmt::format("a frame is left out: {}", error.what()));
+  }
+}
+
+void Node::TakeInertial(const InertialMessage& message) {
+  if (++measurements_ == 1 && !slam_.UsesInertial()) {
+    log_.Say(Severity::kInfo, "inertial measurements come, and are not used (parameter imu)");
+  }
+  if (!slam_.UsesInertial()) return;
+  const auto sample = SampleOf(message);
+  if (!sample) {
+    log_.Throttled(Severity::kWarning,
+                   "imu: a measurement is left out: expected a stamp and rates in rad/s");
+    return;
+  }
+  try {
+    slam_.AddInertial(*sample);
   } catch (const InputError& error) {
     log_.Throttled(Severity::kError, fmt::format("a frame is left out: {}", error.what()));
   }

@@ -31,6 +31,7 @@ class Node {
 
  private:
   void Take(const FrameImages& images);
+  void TakeInertial(const InertialMessage& message);
   // Whether all that the first frame needs is known by now.
   bool GetReady(const ImageMessage& image);
   void PublishMap();
@@ -46,8 +47,9 @@ class Node {
   std::optional<Rigid3> base_from_camera_;
   std::int64_t newest_stamp_ns_ = 0;
   std::int64_t frames_fed_ = 0;
-  bool map_is_new_ = false;  // there were frames since the map was published
-  LiveSlam slam_;            // its threads use what is above
+  std::int64_t measurements_ = 0;  // of an inertial sensor, used or not
+  bool map_is_new_ = false;        // there were frames since the map was published
+  LiveSlam slam_;                  // its threads use what is above
   FrameSubscriber frames_;
 };
 

@@ -135,6 +135,7 @@ NodeParameters ReadParameters(const Parameters& parameters, const std::string& p
   reader.Read("rectified", p.slam.rectified);
   reader.Read("config", p.slam.config);
   p.slam.options = reader.ReadOptions();
+  reader.Read("imu", p.slam.imu);
   if (reader.IsSecond("image_transport", "raw", "compressed")) p.image_transport = "compressed";
   if (reader.IsSecond("depth_transport", "raw", "compressedDepth")) {
     p.depth_transport = "compressedDepth";

@@ -10,7 +10,7 @@ namespace plumbline::ros_node {
 
 // The parameters of the node; docs/ros.md says what they are.
 struct NodeParameters {
-  LiveSlamSettings slam;  // sensor, camera, rectified, config, options
+  LiveSlamSettings slam;  // sensor, camera, rectified, config, options, imu
   std::string image_transport = "raw", depth_transport = "raw";
   bool approximate_sync = false;
   int queue_size = 5;

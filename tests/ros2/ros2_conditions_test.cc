@@ -46,7 +46,8 @@ TEST_F(Ros2ConditionsTest, PublishesTheMountingThatItAssumesAndCountsMeasurement
     message.header.frame_id = frame.data();
     message.linear_acceleration.z = 9.81;
     dds_write(imu, &message);
-    return node.Said().find("measurements come, and are not used yet") != std::string::npos;
+    return node.Said().find("measurements come, and are not used (parameter imu)") !=
+           std::string::npos;
   })) << node.Said();
   ASSERT_TRUE(PublishUntilSaid(images, node, "tf knows no transform from base_link to cam0"))
       << node.Said();

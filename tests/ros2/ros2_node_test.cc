@@ -3,6 +3,8 @@
 #include "ros2_node.h"
 
 #include "plumbline/io/datasets/open_dataset.h"
+#include "plumbline/io/inertial/inertial_calibration_file.h"
+#include "plumbline/io/inertial/inertial_recording.h"
 #include "plumbline/io/trajectory_io.h"
 
 #include "dds_peer.h"
@@ -14,6 +16,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <fstream>
 #include <functional>
 #include <map>
 #include <memory>
@@ -209,6 +212,90 @@ TEST_F(Ros2NodeTest, LockstepGivesTheTrajectoryOfTheFolder) {
   const auto next = dataset_->Read(kFrames);
   ASSERT_TRUE(next);
   ExpectLatched([&] { publisher.Publish(*next); }, node);
+  EXPECT_EQ(node.Stop(), 0) << node.Said();
+}
+
+// The samples of the folder's inertial sensor that are not sent yet, up to so many ns.
+class InertialPublisher {
+ public:
+  InertialPublisher(DdsPeer& peer, std::vector<InertialSample> samples)
+      : writer_(peer.MakeWriter("rt/imu", sensor_msgs_msg_dds__Imu__desc)),
+        samples_(std::move(samples)) {}
+
+  bool HasReader() const { return DdsPeer::HasReader(writer_); }
+  void PublishUpTo(std::int64_t stamp_ns) {
+    std::string frame = "imu0";
+    for (; next_ < samples_.size() && samples_[next_].stamp_ns <= stamp_ns; ++next_) {
+      const InertialSample& sample = samples_[next_];
+      sensor_msgs_msg_dds__Imu_ message{};
+      message.header.stamp.sec = static_cast<std::int32_t>(sample.stamp_ns / kSecond);
+      message.header.stamp.nanosec = static_cast<std::uint32_t>(sample.stamp_ns % kSecond);
+      message.header.frame_id = frame.data();
+      const auto set = [](const Eigen::Vector3d& from, geometry_msgs_msg_dds__Vector3_& to) {
+        to = {from.x(), from.y(), from.z()};
+      };
+      set(sample.angular_rate, message.angular_velocity);
+      set(sample.specific_force, message.linear_acceleration);
+      dds_write(writer_, &message);
+    }
+  }
+
+ private:
+  dds_entity_t writer_;
+  std::vector<InertialSample> samples_;
+  std::size_t next_ = 0;
+};
+
+// Samples that come behind the images for which they are: frames wait, and the gyroscope is used as
+// by a run on the folder.
+TEST_F(Ros2NodeTest, UsesTheGyroscopeAsARunDoes) {
+  if (!dataset_) GTEST_SKIP() << "the sequence is not there";
+  constexpr std::size_t kFrames = 15;
+  const ScratchFolder folder;
+  const auto causal = [&](const std::string& arguments) {
+    const std::string out = (folder / (arguments.empty() ? "without" : "with")).string();
+    const Outcome run =
+        RunProgram(folder,
+                   "run " + Quoted(*sequence_) + " --camera euroc --quiet --to " +
+                       std::to_string(kFrames) + arguments + " --out " + Quoted(out));
+    EXPECT_EQ(run.code, 0) << run.err;
+    return Contents(std::filesystem::path(out) / "trajectory_causal.txt");
+  };
+  const std::string without = causal(""), with = causal(" --imu auto");
+  ASSERT_NE(with, without);
+
+  auto recording = FindInertial(*sequence_, DatasetFormat::kEuroc, {});
+  ASSERT_TRUE(recording);
+  const std::string calibration = (folder / "imu.yaml").string();
+  std::ofstream(calibration) << FormatInertialCalibration(recording->calibration);
+  std::vector<InertialSample> samples = recording->ordered.samples;
+  const std::int64_t first_ns = dataset_->Read(0)->stamp_ns;
+  std::erase_if(samples, [&](const auto& s) { return s.stamp_ns < first_ns - kSecond / 5; });
+
+  Ros2Node node(PairArguments({"-p", "imu:=" + calibration}));
+  PairPublisher publisher(peer_, {});
+  InertialPublisher inertial(peer_, samples);
+  const auto poses =
+      peer_.MakeReader("rt/plumbline/pose", geometry_msgs_msg_dds__PoseStamped__desc);
+  ASSERT_TRUE(WaitUntil([&] {
+    return publisher.HasReaders() && inertial.HasReader() && DdsPeer::HasWriter(poses);
+  })) << node.Said();
+  Trajectory trajectory;
+  for (std::size_t i = 0; i < kFrames; ++i) {
+    const auto frame = dataset_->Read(i);
+    ASSERT_TRUE(frame);
+    inertial.PublishUpTo(frame->stamp_ns - kSecond / 50);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    publisher.Publish(*frame);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    inertial.PublishUpTo(frame->stamp_ns + kSecond / 40);
+    ASSERT_TRUE(WaitUntil([&] {
+      return DdsPeer::Take<PoseStamped>(poses, [&](const PoseStamped& message) {
+        trajectory.push_back({StampOf(message.header), MotionOf(message.pose)});
+      });
+    })) << node.Said();
+  }
+  EXPECT_EQ(FormatTum(trajectory), with);
   EXPECT_EQ(node.Stop(), 0) << node.Said();
 }
 
