@@ -6,6 +6,7 @@
 
 #include "message_writer.h"
 #include "node_log.h"
+#include "ros2_type_hashes.h"
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -88,6 +89,7 @@ std::vector<rtps::octet> OctetsOf(const std::string& text) { return {text.begin(
 
 template <class Qos>
 void SetQos(const TopicSettings& topic, bool reliable, Qos& qos) {
+  qos.user_data().data_vec(OctetsOf(UserDataOfType(topic.type)));
   qos.reliability().kind =
       reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
   qos.durability().kind =

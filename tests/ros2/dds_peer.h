@@ -69,6 +69,11 @@ class DdsPeer {
     return reader;
   }
 
+  // Of a topic that Cyclone DDS has by itself.
+  dds_entity_t MakeReaderOf(dds_entity_t topic) {
+    return dds_create_reader(participant_, topic, nullptr, nullptr);
+  }
+
   static bool HasReader(dds_entity_t writer) {
     dds_publication_matched_status_t status;
     return dds_get_publication_matched_status(writer, &status) == 0 && status.current_count > 0;

@@ -482,6 +482,41 @@ TEST_F(Ros2NodeTest, IntroducesItselfAsANode) {
   EXPECT_TRUE(WaitUntil([&] { return DdsPeer::HasWriter(state); })) << node.Said();
 }
 
+// Every endpoint of a type tells its hash, as ROS 2 does from Iron on (`ros2 topic info
+// --verbose`).
+TEST_F(Ros2NodeTest, TellsTheHashesOfItsTypes) {
+  Ros2Node node(PairArguments());
+  std::map<std::string, std::string> user_data;  // by name of the topic
+  const std::map<std::string, std::string> expected = {
+      {"rt/cam0/image_raw", "d31d41a9a4c4bc8eae9be757b0beed306564f7526c88ea6a4588fb9582527d47"},
+      {"rt/plumbline/state", "df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"},
+      {"rt/tf", "e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"}};
+  for (const dds_entity_t topic :
+       {DDS_BUILTIN_TOPIC_DCPSPUBLICATION, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION}) {
+    const auto reader = peer_.MakeReaderOf(topic);
+    const auto all_came = [&] {
+      DdsPeer::Take<dds_builtintopic_endpoint_t>(reader, [&](const auto& endpoint) {
+        void* data = nullptr;
+        std::size_t size = 0;
+        if (!dds_qget_userdata(endpoint.qos, &data, &size)) return;
+        user_data[endpoint.topic_name] = std::string(static_cast<const char*>(data), size);
+        dds_free(data);
+      });
+      return user_data.contains(topic == DDS_BUILTIN_TOPIC_DCPSPUBLICATION ? "rt/plumbline/path"
+                                                                           : "rt/cam1/image_raw");
+    };
+    EXPECT_TRUE(WaitUntil(all_came)) << node.Said();
+  }
+  // Those of services are not sent.
+  std::erase_if(user_data, [](const auto& entry) { return !entry.first.starts_with("rt/"); });
+  for (const auto& [name, data] : user_data) {
+    EXPECT_THAT(data, testing::MatchesRegex("typehash=RIHS01_[0-9a-f]+;")) << name;
+  }
+  for (const auto& [name, hash] : expected) {
+    EXPECT_EQ(user_data[name], "typehash=RIHS01_" + hash + ";") << name;
+  }
+}
+
 TEST(Ros2NodeArguments, AreCheckedBeforeAnythingStarts) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"sensor:=radar", "sensor: expected mono, stereo or rgbd, found radar"},
