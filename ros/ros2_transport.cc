@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ros2_transport.h"
 
+#include "plumbline/base/error.h"
 #include "plumbline/io/recordings/image_message.h"
 
 #include "message_writer.h"
@@ -12,6 +13,7 @@
 #include <cstdio>
 #include <cstring>
 #include <list>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -79,10 +81,12 @@ class RawType : public dds::TopicDataType {
   bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
 };
 
-// "sensor_msgs/Image" as ROS 2 names it in DDS.
+// "sensor_msgs/Image" as ROS 2 names it in DDS; messages of services are those of std_srvs.
 std::string DdsTypeOf(const std::string& type) {
   const std::size_t slash = type.find('/');
-  return type.substr(0, slash) + "::msg::dds_::" + type.substr(slash + 1) + "_";
+  const std::string package = type.substr(0, slash);
+  return package + (package == "std_srvs" ? "::srv" : "::msg") +
+         "::dds_::" + type.substr(slash + 1) + "_";
 }
 
 std::vector<rtps::octet> OctetsOf(const std::string& text) { return {text.begin(), text.end()}; }
@@ -107,6 +111,46 @@ T* OrFail(T* made, const std::string& what) {
   if (made == nullptr) throw std::runtime_error("DDS: " + what + " cannot be made");
   return made;
 }
+
+// A request of a service without arguments (std_srvs/Trigger).
+//
+// rmw_fastrtps tells in the data of DDS which request a reply is for (related_sample_identity: who
+// asked, and how often). rmw_cyclonedds has 16 bytes for this in front of the message, of requests
+// and replies.
+struct TriggerRequest {
+  rtps::SampleIdentity identity;
+  Bytes header;  // of rmw_cyclonedds, little-endian; else empty
+
+  // nullopt for bytes that are none.
+  static std::optional<TriggerRequest> Parse(const Bytes& bytes, const dds::SampleInfo& info) {
+    constexpr std::size_t kEncoding = 4, kHeader = 16, kMostPadded = 4;
+    if (bytes.size() < kEncoding || bytes[0] != 0 || bytes[1] > 1) return std::nullopt;
+    TriggerRequest request;
+    request.identity = info.sample_identity;
+    if (info.related_sample_identity.writer_guid() != rtps::GUID_t::unknown()) {
+      request.identity.writer_guid(info.related_sample_identity.writer_guid());
+    }
+    const std::size_t size = bytes.size() - kEncoding;
+    if (size <= kMostPadded) return request;
+    if (size < kHeader || size > kHeader + kMostPadded) return std::nullopt;
+    const auto begin = bytes.begin() + kEncoding, middle = begin + kHeader / 2;
+    request.header.assign(begin, begin + kHeader);
+    if (bytes[1] == 0) {
+      std::reverse_copy(begin, middle, request.header.begin());
+      std::reverse_copy(middle, middle + kHeader / 2, request.header.begin() + kHeader / 2);
+    }
+    return request;
+  }
+
+  Bytes Reply(bool success, const std::string& text) const {
+    MessageWriter message(true);
+    message.U8(success ? 1 : 0);
+    message.Text(text);
+    Bytes bytes = message.bytes();
+    bytes.insert(bytes.begin() + 4, header.begin(), header.end());
+    return bytes;
+  }
+};
 
 class Ros2Publication : public Publication {
  public:
@@ -169,6 +213,33 @@ class Ros2Transport::Implementation {
                topic,
                [receive = std::move(receive)](Bytes bytes, const dds::SampleInfo&) {
                  receive(std::move(bytes));
+               });
+  }
+
+  void OfferTrigger(const std::string& service, std::function<std::string()> work) {
+    constexpr int kQueue = 10;
+    const TopicSettings requests{"rq" + service + "Request", "std_srvs/Trigger_Request", kQueue};
+    const TopicSettings replies{"rr" + service + "Reply", "std_srvs/Trigger_Response", kQueue};
+    dds::DataWriter* writer = MakeWriter(replies.name, replies);
+    writers_.push_back(writer);
+    MakeReader(requests.name,
+               requests,
+               [this, requests, writer, work = std::move(work)](const Bytes& bytes,
+                                                                const dds::SampleInfo& info) {
+                 const auto request = TriggerRequest::Parse(bytes, info);
+                 if (!request) return log_.Refuse(requests, bytes.size());
+                 Bytes reply;
+                 try {
+                   const std::string done = work();
+                   log_.Say(Severity::kInfo, done);
+                   reply = request->Reply(true, done);
+                 } catch (const InputError& error) {
+                   log_.Say(Severity::kError, error.what());
+                   reply = request->Reply(false, error.what());
+                 }
+                 rtps::WriteParams parameters;
+                 parameters.related_sample_identity(request->identity);
+                 writer->write(&reply, parameters);
                });
   }
 
@@ -349,8 +420,9 @@ void Ros2Transport::Subscribe(const TopicSettings& topic, Receive receive) {
 void Ros2Transport::Repeat(double seconds, std::function<void()> work) {
   implementation_->Repeat(seconds, std::move(work));
 }
-// Each implementation of ROS 2 has services of its own form on top of DDS.
-void Ros2Transport::OfferTrigger(const std::string&, std::function<std::string()>) {}
+void Ros2Transport::OfferTrigger(const std::string& name, std::function<std::string()> work) {
+  implementation_->OfferTrigger(Resolve(name), std::move(work));
+}
 std::unique_ptr<Publication> Ros2Transport::Advertise(const TopicSettings& topic) {
   return implementation_->Advertise(topic);
 }

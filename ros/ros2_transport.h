@@ -12,8 +12,9 @@ namespace plumbline::ros_node {
 
 // The transport of ROS 2: DDS topics named and typed as its nodes have them ("rt/image",
 // "sensor_msgs::msg::dds_::Image_"), by Fast DDS, over UDP alone. Messages are handed over as their
-// CDR bytes. It offers no services. What is repeated is so by the steady clock, or by /clock where
-// use_sim_time is set: not before it comes, and not while it stands.
+// CDR bytes. Services are those of rmw_fastrtps and of rmw_cyclonedds. What is repeated is so by
+// the steady clock, or by /clock where use_sim_time is set: not before it comes, and not while it
+// stands.
 //
 // Other nodes learn of the node by the topic ros_discovery_info (rmw_dds_common,
 // ParticipantEntitiesInfo).

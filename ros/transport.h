@@ -55,7 +55,7 @@ class Transport {
   virtual void Subscribe(const TopicSettings& topic, Receive receive) = 0;
   virtual void Repeat(double seconds, std::function<void()> work) = 0;
   // A service without arguments, std_srvs/Trigger. What `work` returns is the answer of success;
-  // an InputError is that of a failure. A transport may have no services.
+  // an InputError is that of a failure.
   virtual void OfferTrigger(const std::string& name, std::function<std::string()> work) = 0;
   virtual std::unique_ptr<Publication> Advertise(const TopicSettings& topic) = 0;
 

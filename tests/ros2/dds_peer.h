@@ -69,6 +69,13 @@ class DdsPeer {
     return reader;
   }
 
+  // The reader of a type of ours in the name of another one.
+  dds_entity_t MakeReaderNamed(const std::string& topic,
+                               dds_topic_descriptor_t type,
+                               const std::string& type_name) {
+    type.m_typename = type_name.c_str();
+    return MakeReader(topic, type);
+  }
   // Of a topic that Cyclone DDS has by itself.
   dds_entity_t MakeReaderOf(dds_entity_t topic) {
     return dds_create_reader(participant_, topic, nullptr, nullptr);

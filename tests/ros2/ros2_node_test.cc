@@ -472,8 +472,8 @@ TEST_F(Ros2NodeTest, IntroducesItselfAsANode) {
              const auto& one = message.node_entities_info_seq._buffer[0];
              EXPECT_STREQ(one.node_namespace, "/robot");
              EXPECT_STREQ(one.node_name, "slam");
-             EXPECT_EQ(one.reader_gid_seq._length, 4U);  // image, imu, tf, tf_static
-             EXPECT_EQ(one.writer_gid_seq._length, 8U);
+             EXPECT_EQ(one.reader_gid_seq._length, 8U);  // image, imu, tf, tf_static, services
+             EXPECT_EQ(one.writer_gid_seq._length, 12U);
              came = true;
            });
   })) << node.Said();
