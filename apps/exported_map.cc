@@ -47,12 +47,14 @@ std::vector<Segment3> LinesToExport(const SavedMap& saved,
 // The mean colour of each point in the images that were added.
 class PointColorMeans {
  public:
-  void Add(const KeyFrame& keyframe, const ColorImage& image) {
+  // `camera` is that of the image.
+  void Add(const KeyFrame& keyframe, const ExportCamera& camera, const ColorImage& image) {
     const Frame& frame = keyframe.frame;
     const Features measured = MeasuredFeatures(*frame.indexed);
     for (std::size_t i = 0; i < frame.points.size(); ++i) {
       if (!frame.points[i].valid()) continue;
-      const Eigen::Vector2d& px = measured.points[i].px;
+      const Eigen::Vector2d& rectified = measured.points[i].px;
+      const Eigen::Vector2d px = camera.PixelOf(rectified).value_or(rectified);
       const auto x = std::clamp<long>(std::lround(px.x()), 0, image.width() - 1);
       const auto y = std::clamp<long>(std::lround(px.y()), 0, image.height() - 1);
       const Color color = image.at(static_cast<int>(x), static_cast<int>(y));
@@ -113,21 +115,48 @@ std::vector<WantedImage> WantedImages(const SavedMap& saved,
   return images;
 }
 
-// Reads all images, writes them into `folder` unless it is empty, and returns the colours of the
-// points in those of the keyframes; no colours without images.
+// Returns the camera of the images of a format: that of the images as delivered, if the format
+// knows its lens, otherwise that of the map.
+ExportCamera CameraOfImages(const SavedMap& saved, const MapExport& wanted) {
+  const ExportCamera undistorted(saved.camera);
+  if (wanted.images == nullptr || wanted.undistort) return undistorted;
+  const ExportCamera delivered = wanted.images->DeliveredCamera();
+  const bool known =
+      (wanted.format == ExportFormat::kColmap && ColmapCameraOf(delivered.intrinsics())) ||
+      (wanted.format == ExportFormat::kNerfstudio && NerfstudioKnows(delivered.intrinsics()));
+  return known ? delivered : undistorted;
+}
+
+// Returns the number of images and, if they are not as the camera delivers them, or are but need a
+// lens model, what they are.
+std::string ImagesText(const MapExport& wanted, const ExportCamera& camera, std::size_t count) {
+  const std::string images = Counted(count, "image");
+  if (wanted.images == nullptr) return images + " (not written; --images PATH writes them)";
+  const ExportCamera delivered = wanted.images->DeliveredCamera();
+  if (!delivered.IsDelivered()) return images;
+  const std::string_view lens = FormOf(delivered.intrinsics().model).name;
+  if (camera.IsDelivered()) return fmt::format("{} as delivered ({})", images, lens);
+  if (wanted.undistort) return images + " without distortion";
+  return fmt::format("{} without distortion (no model {} there)", images, lens);
+}
+
+// Reads all images of this camera, writes them into `folder` unless it is empty, and returns the
+// colours of the points in those of the keyframes; no colours without images.
 PointColors ReadImages(const SavedMap& saved,
+                       const ExportCamera& camera,
                        const std::map<KeyFrameId, std::string>& names,
                        const MapExport& wanted,
                        const fs::path& folder,
                        const StopCheck& stop) {
   if (wanted.images == nullptr) return {};
   if (!folder.empty()) MakeFolder(folder);
+  const ImageForm form = camera.IsDelivered() ? ImageForm::kDelivered : ImageForm::kUndistorted;
   PointColorMeans colors;
   for (const WantedImage& one : WantedImages(saved, names, wanted)) {
     EndIfAsked(stop);
-    const ColorImage image = one.keyframe != nullptr ? wanted.images->Read(*one.keyframe)
-                                                     : wanted.images->ReadAt(one.stamp_ns);
-    if (one.keyframe != nullptr) colors.Add(*one.keyframe, image);
+    const ColorImage image = one.keyframe != nullptr ? wanted.images->Read(*one.keyframe, form)
+                                                     : wanted.images->ReadAt(one.stamp_ns, form);
+    if (one.keyframe != nullptr) colors.Add(*one.keyframe, camera, image);
     if (!folder.empty()) WriteColorPng(folder / one.name, image);
   }
   return colors.Means();
@@ -145,15 +174,15 @@ std::string ExportColmap(const SavedMap& saved, const MapExport& wanted, const S
   const std::map<KeyFrameId, std::string> names = KeyFrameImageNames(saved.map);
   AtomicFolder folder(wanted.out);
   const fs::path& path = folder.temporary_path();
-  const PointColors colors = ReadImages(saved, names, wanted, path / "images", stop);
-  const ColmapModel model = MakeColmapModel(saved, names, colors, wanted.others);
-  WriteColmapFolder(path, saved.map, model, names, wanted.colmap_files);
+  const ExportCamera camera = CameraOfImages(saved, wanted);
+  const PointColors colors = ReadImages(saved, camera, names, wanted, path / "images", stop);
+  const ColmapModel model = MakeColmapModel(saved, camera, names, colors, wanted.others);
+  WriteColmapFolder(path, saved.map, camera, model, names, wanted.colmap_files);
   folder.Commit();
   const std::size_t left_out = saved.map.points().size() - model.points.size();
   return fmt::format(
-      "{}{}, {}{}, {}",
-      Counted(model.images.size(), "image"),
-      wanted.images != nullptr ? "" : " (not written; --images PATH writes them)",
+      "{}, {}{}, {}",
+      ImagesText(wanted, camera, model.images.size()),
       Counted(model.points.size(), "point"),
       left_out == 0 ? std::string() : fmt::format(" ({} of one image left out)", left_out),
       Counted(saved.map.lines().size(), "line"));
@@ -165,13 +194,14 @@ std::string ExportNerfstudio(const SavedMap& saved,
   const std::map<KeyFrameId, std::string> names = KeyFrameImageNames(saved.map);
   AtomicFolder folder(wanted.out);
   const fs::path& path = folder.temporary_path();
-  const PointColors colors = ReadImages(saved, names, wanted, path / "images", stop);
+  const ExportCamera camera = CameraOfImages(saved, wanted);
+  const PointColors colors = ReadImages(saved, camera, names, wanted, path / "images", stop);
   WritePly(path / "points.ply", PointPositions(saved.map), {}, ColorsInOrder(saved.map, colors));
   WriteNerfstudioTransforms(
-      path / "transforms.json", saved, "images", names, "points.ply", wanted.others);
+      path / "transforms.json", saved, camera, names, "points.ply", wanted.others);
   folder.Commit();
   return fmt::format("{}, {}",
-                     Counted(names.size() + wanted.others.size(), "image"),
+                     ImagesText(wanted, camera, names.size() + wanted.others.size()),
                      Counted(saved.map.points().size(), "point"));
 }
 
@@ -188,7 +218,8 @@ std::string ExportTum(const SavedMap& saved, const MapExport& wanted) {
 std::string ExportLines(const SavedMap& saved, const MapExport& wanted, const StopCheck& stop) {
   const std::vector<Segment3> lines = LinesToExport(saved, wanted, stop);
   if (wanted.format == ExportFormat::kPly) {
-    const PointColors colors = ReadImages(saved, KeyFrameImageNames(saved.map), wanted, {}, stop);
+    const PointColors colors = ReadImages(
+        saved, CameraOfImages(saved, wanted), KeyFrameImageNames(saved.map), wanted, {}, stop);
     WritePly(wanted.out, PointPositions(saved.map), lines, ColorsInOrder(saved.map, colors));
     return fmt::format(
         "{}, {}", Counted(saved.map.points().size(), "point"), Counted(lines.size(), "line"));
@@ -242,12 +273,15 @@ int ParseExportedFrames(std::string_view text) {
   FailChoice("--frames", names, text);
 }
 
-void CheckExport(ExportFormat format, bool has_images, int every) {
+void CheckExport(ExportFormat format, bool has_images, int every, bool undistort) {
   if (has_images && !IsFolder(format) && format != ExportFormat::kPly) {
     throw InputError("--images: goes with --to ply, colmap and nerfstudio only");
   }
   if (every > 0 && !IsFolder(format)) {
     throw InputError("--frames: goes with --to colmap and nerfstudio only");
+  }
+  if (undistort && (!has_images || !IsFolder(format))) {
+    throw InputError("--undistort: goes with --images and --to colmap or nerfstudio only");
   }
   if (has_images) return;
   constexpr std::string_view kImages =

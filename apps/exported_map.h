@@ -43,8 +43,8 @@ FileKind KindOfExport(ExportFormat format);
 int ParseExportedFrames(std::string_view text);
 
 // Throws InputError if images are given for a format without, or missing for one with images, and
-// if frames other than keyframes (every > 0) are requested without images.
-void CheckExport(ExportFormat format, bool has_images, int every);
+// if frames other than keyframes (every > 0) or undistorted images are requested without images.
+void CheckExport(ExportFormat format, bool has_images, int every, bool undistort);
 
 // Returns the file with the poses of a map's frames, in the folder of the run that wrote the map
 // file: trajectory_map<id>.txt if it exists, otherwise trajectory.txt. Throws InputError if there
@@ -65,6 +65,7 @@ struct MapExport {
   std::filesystem::path out;
   const KeyFrameImages* images = nullptr;  // null: no images
   std::vector<PosedImage> others = {};     // frames other than keyframes
+  bool undistort = false;                  // images without distortion, whatever the format knows
   ColmapFiles colmap_files = ColmapFiles::kBoth;
   // Inputs of MakeLineMap, as in the run that made the map.
   CameraAndPyramid imaging = {};
@@ -72,9 +73,10 @@ struct MapExport {
 };
 
 // Writes a map and returns a summary, "19 images, 800 points"; nullopt if `stop` has ended it, and
-// nothing is written. Points have their mean colour in the images of the keyframes. Throws
-// InputError if an image cannot be read or is not that of its keyframe, and if a file cannot be
-// written.
+// nothing is written. Images are as delivered if the format knows the lens (ColmapCameraOf,
+// NerfstudioKnows), otherwise undistorted. Points have their mean colour in the images of the
+// keyframes. Throws InputError if an image cannot be read or is not that of its keyframe, and if a
+// file cannot be written.
 std::optional<std::string> ExportMap(const SavedMap& saved,
                                      const MapExport& wanted,
                                      const StopCheck& stop);

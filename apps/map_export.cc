@@ -31,7 +31,7 @@ CommandSyntax MapExportSyntax() {
   return {"map export",
           "Writes a map in the form of another program: points and lines (ply), lines (obj, dxf), "
           "the\ntrajectory of the keyframes (tum), or a folder with a sparse model (colmap) or a "
-          "data set\n(nerfstudio) with undistorted images.",
+          "data set\n(nerfstudio) with images.",
           {"FILE"},
           {{"--to", "ply|obj|dxf|tum|colmap|nerfstudio", "the form"},
            {"--out", "PATH", "file, or new folder for colmap and nerfstudio"},
@@ -46,6 +46,10 @@ CommandSyntax MapExportSyntax() {
            {"--camera", "FILE", "of --images: camera file, or the name of a built-in camera"},
            {"--rotate", "auto|none|90|180|270", "of --images, as for the run (auto)"},
            {"--view-angle", "DEGREES", "of --images, as for the run"},
+           {"--undistort",
+            "",
+            "images without distortion, as the map's camera; otherwise as delivered where the form "
+            "has a model of the lens"},
            {"--frames",
             "keyframes|all|every:N",
             "which frames are images: the keyframes, all frames with a pose as well, or every N-th "
@@ -63,6 +67,7 @@ struct ExportRequest {
   DatasetOptions images_options;
   int every = 0;                                    // ParseExportedFrames
   std::optional<std::filesystem::path> trajectory;  // nullopt: that beside the map
+  bool undistort = false;
   ColmapFiles colmap_files = ColmapFiles::kBoth;
 };
 
@@ -101,7 +106,8 @@ ExportRequest ReadExportRequest(const CommandLine& line) {
   if (const auto text = line.Value("--frames")) request.every = ParseExportedFrames(*text);
   if (const auto file = line.Value("--trajectory")) request.trajectory = *file;
   RefuseWithout(line, "--trajectory", request.every > 0, "--frames all and --frames every:N");
-  CheckExport(request.format, request.images.has_value(), request.every);
+  request.undistort = line.Has("--undistort");
+  CheckExport(request.format, request.images.has_value(), request.every, request.undistort);
   const std::filesystem::path read = line.Positional(0);
   CheckOutput("--out", request.out, {&read, 1}, KindOfExport(request.format));
   return request;
@@ -122,6 +128,7 @@ std::optional<std::string> Export(const CommandLine& line, const ExportRequest& 
       SavedMapOf(std::move(ChooseMap(line, atlas.atlas)), atlas.context, atlas.file_version);
   MapExport wanted{request.format, request.out};
   wanted.colmap_files = request.colmap_files;
+  wanted.undistort = request.undistort;
   wanted.imaging = {atlas.context.camera, atlas.context.octave_scale};
   wanted.line_map = options.mapping.line_map;
   if (request.every > 0) {

@@ -34,11 +34,14 @@ std::string WithArguments(const std::string& message) {
                                                                {"frames", "frames"},
                                                                {"images", "images"},
                                                                {"map", "map"},
+                                                               {"mask", "mask"},
                                                                {"out", "out"},
                                                                {"sensor", "sensor"},
                                                                {"to", "format"},
                                                                {"topic", "topics"},
-                                                               {"trajectory", "trajectory"}};
+                                                               {"trajectory", "trajectory"},
+                                                               {"undistort", "undistort"},
+                                                               {"view-angle", "view_angle"}};
   static const std::regex option(R"((^|[ (])--(set |[a-z]+(?:-[a-z]+)*)(?: ([A-Z]+)\b)?)");
   std::string text;
   auto rest = message.cbegin();

@@ -15,7 +15,9 @@
 #include "texts.h"
 #include "trajectories.h"
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -92,20 +94,32 @@ void BindMapOutputs(py::class_<PyMap>& bound) {
 
 The lines fit to be given out (docs/methods/line-map.md), as the run had it: "segments" (N, 2, 3) in
 the world, "sigmas" (N,) of the worse end across, "keyframes" (N,) that show it. New arrays.)")
-      .def("export",
-           &ExportMap,
-           py::arg("path"),
-           py::arg("format"),
-           py::arg("images") = py::none(),
-           py::arg("frames") = "keyframes",
-           py::arg("trajectory") = py::none(),
-           R"(export(path, format, images=None, frames="keyframes", trajectory=None)
+      .def(
+          "export",
+          [](const PyMap& map,
+             const std::filesystem::path& path,
+             const std::string& format,
+             std::optional<ImageSource> images,
+             const std::string& frames,
+             std::optional<PoseSource> trajectory,
+             bool undistort) {
+            ExportMap(
+                map, path, format, {std::move(images), frames, std::move(trajectory), undistort});
+          },
+          py::arg("path"),
+          py::arg("format"),
+          py::arg("images") = py::none(),
+          py::arg("frames") = "keyframes",
+          py::arg("trajectory") = py::none(),
+          py::arg("undistort") = false,
+          R"(export(path, format, images=None, frames="keyframes", trajectory=None, undistort=False)
 
 Writes what `plumbline map export` writes: "ply", "obj", "dxf", "tum" (the keyframes), "colmap" or
 "nerfstudio" (new folders). images: the data that the map was made from, a Dataset or a path; they
 give ply, colmap and nerfstudio their images and colours. frames: "keyframes", "all" for all frames
 with a pose as well, or "every:N" for every N-th of these; their poses are trajectory, a Trajectory
-or a file (None: trajectory.txt beside the file of the map). Ctrl-C raises KeyboardInterrupt, and
+or a file (None: trajectory.txt beside the file of the map). undistort: images without distortion
+also where the format has a model of the lens. Ctrl-C raises KeyboardInterrupt, and
 nothing is written. Raises InputError where anything else than an export of this form would be
 replaced.)")
       .def("__repr__", [](const PyMap& map) {

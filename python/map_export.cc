@@ -72,14 +72,14 @@ Trajectory KeyFrameTrajectoryOf(const PyMap& map) {
 void ExportMap(const PyMap& map,
                const std::filesystem::path& path,
                const std::string& format,
-               const std::optional<ImageSource>& images,
-               const std::string& frames,
-               const std::optional<PoseSource>& trajectory) {
+               const ExportedImages& images) {
+  const auto& [source, frames, trajectory, undistort] = images;
   MapExport wanted;
+  wanted.undistort = undistort;
   wanted.format = ParseChoice<ExportFormat>("format", format);
   wanted.out = path;
   const int every = ParseExportedFrames(frames);
-  CheckExport(wanted.format, images.has_value(), every);
+  CheckExport(wanted.format, source.has_value(), every, undistort);
   if (trajectory && every == 0) {
     throw InputError("trajectory: goes with frames=\"all\" and frames=\"every:N\" only");
   }
@@ -91,12 +91,12 @@ void ExportMap(const PyMap& map,
   RunInterruptibly([&](const StopCheck& stop) {
     const SavedMap saved = SavedMapOf(*map.map, map.saved->context, map.saved->file_version);
     if (every > 0) {
-      const auto [source, poses] = FramePosesOf(map, trajectory);
-      wanted.others = FramesBetween(saved, source, poses, every);
+      const auto [file, poses] = FramePosesOf(map, images.trajectory);
+      wanted.others = FramesBetween(saved, file, poses, every);
     }
     std::optional<KeyFrameImages> opened;
-    if (images) {
-      opened.emplace(ImagesOf(*images, saved));
+    if (images.source) {
+      opened.emplace(ImagesOf(*images.source, saved));
       wanted.images = &*opened;
     }
     plumbline::ExportMap(saved, wanted, stop);

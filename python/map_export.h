@@ -30,12 +30,18 @@ using ImageSource = std::variant<std::shared_ptr<Dataset>, std::filesystem::path
 // Poses of frames, or their file.
 using PoseSource = std::variant<PoseList, std::filesystem::path>;
 
+// The images of an export: their source, frames, poses of frames other than keyframes, and form.
+struct ExportedImages {
+  std::optional<ImageSource> source;
+  std::string frames;
+  std::optional<PoseSource> trajectory;
+  bool undistort = false;
+};
+
 // Writes a map like `plumbline map export --to FORMAT`, with the same checks. Holds the GIL.
 void ExportMap(const PyMap& map,
                const std::filesystem::path& path,
                const std::string& format,
-               const std::optional<ImageSource>& images,
-               const std::string& frames,
-               const std::optional<PoseSource>& trajectory);
+               const ExportedImages& images);
 
 }  // namespace plumbline::python

@@ -163,7 +163,8 @@ class Map:
     def line_map(self) -> _LineMap: ...
     def export(self, path: _Path, format: str, images: Dataset | _Path | None = None,
                frames: str = "keyframes",
-               trajectory: Trajectory | _Path | None = None) -> None: ...
+               trajectory: Trajectory | _Path | None = None,
+               undistort: bool = False) -> None: ...
 
 
 class _LineMap(TypedDict):

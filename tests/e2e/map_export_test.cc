@@ -84,12 +84,65 @@ TEST(MapExport, KnowsTheOptionsOfTheRun) {
   ExpectFilesOfTheRun(folder, folder / "run");
 }
 
+// The COLMAP model of a run, with images in `model` followed by the arguments.
+ColmapModel ExportedModel(const ScratchFolder& folder,
+                          const fs::path& data,
+                          const std::string& arguments) {
+  const fs::path out = folder / ("model" + arguments);
+  const Outcome outcome =
+      RunProgram(folder,
+                 "map export " + Quoted(folder / "run/map.plb") + " --to colmap --images " +
+                     Quoted(data) + arguments + " --out " + Quoted(out));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr(arguments.empty() ? " as delivered (" : " without distort"));
+  ColmapModel model = ReadColmapBinary(out / "sparse/0");
+  EXPECT_GT(model.points.size(), 100U);
+  EXPECT_EQ(FilesOf(out / "images").size(), model.images.size());
+  for (const ColmapModel::Point& point : model.points) {
+    EXPECT_NEAR(ReprojectionErrorOf(model, point), point.error, 1e-6);
+  }
+  return model;
+}
+
+double MeanError(const ColmapModel& model) {
+  double sum = 0;
+  for (const ColmapModel::Point& point : model.points) sum += point.error;
+  return sum / static_cast<double>(model.points.size());
+}
+
+// The features of both exports of a run show the same, and the points are as near to them.
+void ExpectSamePatches(const ScratchFolder& folder,
+                       const ColmapModel& delivered,
+                       const ColmapModel& pinhole) {
+  ASSERT_EQ(delivered.points.size(), pinhole.points.size());
+  const double scale = pinhole.camera.parameters[0] / delivered.camera.parameters[0];
+  EXPECT_NEAR(scale * MeanError(delivered), MeanError(pinhole), 0.15 * MeanError(pinhole));
+  const auto image_of = [&](const char* out, const std::string& name) {
+    return ToGray(*ReadColorImage(folder / out / "images" / name));
+  };
+  std::vector<int> differences;
+  for (std::size_t i = 0; i < delivered.images.size(); ++i) {
+    const std::string& name = delivered.images[i].name;
+    const GrayImage a = image_of("model", name), b = image_of("model --undistort", name);
+    for (std::size_t k = 0; k < delivered.images[i].keypoints.size(); ++k) {
+      const Eigen::Vector2i p = delivered.images[i].keypoints[k].px.cast<int>();
+      const Eigen::Vector2i q = pinhole.images[i].keypoints[k].px.cast<int>();
+      ASSERT_TRUE(p.minCoeff() >= 0 && p.x() < a.width() && p.y() < a.height());
+      differences.push_back(std::abs(a.at(p.x(), p.y()) - b.at(q.x(), q.y())));
+    }
+  }
+  ASSERT_GT(differences.size(), 1000U);
+  std::nth_element(
+      differences.begin(), differences.begin() + std::ssize(differences) / 2, differences.end());
+  EXPECT_LT(differences[differences.size() / 2], 12);  // corners: a pixel beside differs by more
+}
+
 TEST(MapExport, OfRealSequences) {
-  const std::tuple<const char*, const char*, bool> runs[] = {
-      {"euroc/MH_01_easy_first250", "--to 30", true},
-      {"euroc/MH_01_easy_first250", "--sensor mono --from 60 --to 110", false},
-      {"tum/rgbd_dataset_freiburg1_floor_first90", "--to 30", false}};
-  for (const auto& [sequence, frames, has_lines] : runs) {
+  const std::tuple<const char*, const char*, bool, const char*> runs[] = {
+      {"euroc/MH_01_easy_first250", "--to 30", true, "OPENCV"},
+      {"euroc/MH_01_easy_first250", "--sensor mono --from 60 --to 110", false, "OPENCV"},
+      {"tum/rgbd_dataset_freiburg1_floor_first90", "--to 30", false, "FULL_OPENCV"}};
+  for (const auto& [sequence, frames, has_lines, lens] : runs) {
     const auto data = FindData(sequence);
     if (!data) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
     const ScratchFolder folder;
@@ -100,17 +153,11 @@ TEST(MapExport, OfRealSequences) {
     if (has_lines) {
       EXPECT_GT(Contents(folder / "lines.obj").size(), 1000U);
     }
-    const Outcome colmap =
-        RunProgram(folder,
-                   "map export " + Quoted(folder / "run/map.plb") + " --to colmap --images " +
-                       Quoted(*data) + " --out " + Quoted(folder / "model"));
-    EXPECT_EQ(colmap.code, 0) << colmap.err;
-    const ColmapModel model = ReadColmapBinary(folder / "model/sparse/0");
-    EXPECT_GT(model.points.size(), 100U);
-    EXPECT_EQ(FilesOf(folder / "model/images").size(), model.images.size());
-    for (const ColmapModel::Point& point : model.points) {
-      EXPECT_NEAR(ReprojectionErrorOf(model, point), point.error, 1e-6);
-    }
+    const ColmapModel delivered = ExportedModel(folder, *data, "");
+    const ColmapModel pinhole = ExportedModel(folder, *data, " --undistort");
+    EXPECT_EQ(delivered.camera.model, lens);
+    EXPECT_EQ(pinhole.camera.model, "PINHOLE");
+    ExpectSamePatches(folder, delivered, pinhole);
   }
 }
 
@@ -188,9 +235,7 @@ void PaintLeftImages(const fs::path& sequence) {
 Eigen::Vector2d PlaceIn(const ColmapModel& model,
                         const ColmapModel::Image& image,
                         const Eigen::Vector3d& position) {
-  const Eigen::Vector3d p = image.cam_from_world * position;
-  const ColmapModel::Camera& c = model.camera;
-  return {c.fx * p.x() / p.z() + c.cx, c.fy * p.y() / p.z() + c.cy};
+  return read_colmap_detail::Project(model.camera, image.cam_from_world * position);
 }
 
 // All frames of a run, in the colours of the data: what a point looks like where it is projected

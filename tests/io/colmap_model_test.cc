@@ -9,6 +9,7 @@
 #include "tests/support/read_colmap.h"
 #include "tests/support/true_map.h"
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iterator>
 #include <map>
@@ -65,8 +66,10 @@ void ExpectEqual(const ColmapModel& a, const ColmapModel& b) {
 TEST(ColmapModel, TextAndBinaryGiveItBackToTheLastBit) {
   const ScratchFolder folder;
   const SavedMap saved = NoisyMap();
-  const ColmapModel model =
-      MakeColmapModel(saved, KeyFrameImageNames(saved.map), {{PointId{5}, {17, 18, 219}}});
+  const ColmapModel model = MakeColmapModel(saved,
+                                            ExportCamera(saved.camera),
+                                            KeyFrameImageNames(saved.map),
+                                            {{PointId{5}, {17, 18, 219}}});
   WriteColmapText(folder.path(), model);
   WriteColmapBinary(folder.path(), model);
   ExpectEqual(ReadColmapText(folder.path()), model);
@@ -76,7 +79,9 @@ TEST(ColmapModel, TextAndBinaryGiveItBackToTheLastBit) {
 TEST(ColmapModel, HasTheReprojectionErrorsOfTheMap) {
   const ScratchFolder folder;
   const SavedMap saved = NoisyMap();
-  WriteColmapText(folder.path(), MakeColmapModel(saved, KeyFrameImageNames(saved.map)));
+  WriteColmapText(
+      folder.path(),
+      MakeColmapModel(saved, ExportCamera(saved.camera), KeyFrameImageNames(saved.map)));
   const ColmapModel model = ReadColmapText(folder.path());
   ASSERT_GT(model.points.size(), 60U);
   double largest = 0;
@@ -94,7 +99,8 @@ TEST(ColmapModel, HasTheReprojectionErrorsOfTheMap) {
 
 TEST(ColmapModel, KeypointsAndTracksNameEachOther) {
   const SavedMap saved = NoisyMap();
-  const ColmapModel model = MakeColmapModel(saved, KeyFrameImageNames(saved.map));
+  const ColmapModel model =
+      MakeColmapModel(saved, ExportCamera(saved.camera), KeyFrameImageNames(saved.map));
   std::map<std::uint32_t, const ColmapModel::Image*> images;
   std::size_t matched = 0, unmatched = 0, in_tracks = 0;
   for (const ColmapModel::Image& image : model.images) {
@@ -119,8 +125,10 @@ TEST(ColmapModel, HasFramesBehindTheKeyframes) {
   const SavedMap saved = NoisyMap();
   const PosedImage frame{7, "7.png", {{0, 1, 0, 0}, {1, 2, 3}}};
   const std::vector<PosedImage> others = {frame, {8, "8.png", {}}};
-  const ColmapModel keyframes = MakeColmapModel(saved, KeyFrameImageNames(saved.map));
-  const ColmapModel model = MakeColmapModel(saved, KeyFrameImageNames(saved.map), {}, others);
+  const ColmapModel keyframes =
+      MakeColmapModel(saved, ExportCamera(saved.camera), KeyFrameImageNames(saved.map));
+  const ColmapModel model =
+      MakeColmapModel(saved, ExportCamera(saved.camera), KeyFrameImageNames(saved.map), {}, others);
   ASSERT_EQ(model.images.size(), keyframes.images.size() + 2);
   const ColmapModel::Image& first = model.images[keyframes.images.size()];
   EXPECT_EQ(first.id, keyframes.images.back().id + 1);
@@ -136,11 +144,96 @@ TEST(ColmapModel, HasFramesBehindTheKeyframes) {
   ExpectEqual(ReadColmapBinary(folder.path()), model);
 }
 
+struct KnownLens {
+  const char* name;  // in COLMAP
+  DistortionModel model;
+  double focal;
+  std::array<double, kMostCoefficients> distortion;
+};
+
+const std::vector<KnownLens>& LensesThatColmapKnows() {
+  using enum DistortionModel;
+  static const std::vector<KnownLens> lenses = {
+      {"PINHOLE", kNone, 500, {}},
+      {"PINHOLE", kRadTan, 500, {}},
+      {"OPENCV", kRadTan, 460, {-0.28, 0.07, 0.0002, 0.00002}},
+      {"FULL_OPENCV", kRadTan, 517, {0.26, -0.95, -0.005, 0.003, 1.16}},
+      {"FULL_OPENCV", kRational, 300, {8.5, 4.2, 0.0002, -0.0001, 0.21, 8.85, 7.06, 1.1}},
+      {"FOV", kFov, 350, {0.93}},
+      {"OPENCV_FISHEYE", kEquidistant, 190, {0.0035, 0.0007, -0.002, 0.0002}}};
+  return lenses;
+}
+
+// The camera of this lens, of which the rectified one is turned by some degrees.
+ExportCamera DeliveredBy(const RectifiedCamera& rectified, const KnownLens& lens) {
+  CameraIntrinsics in;
+  in.fx = lens.focal;
+  in.fy = 1.01 * lens.focal;
+  in.cx = 371.3;
+  in.cy = 235.7;
+  in.width = 752;
+  in.height = 480;
+  in.model = lens.model;
+  in.distortion = lens.distortion;
+  const Eigen::AngleAxisd turn(0.05, Eigen::Vector3d(1, 2, -1).normalized());
+  return {rectified, Eigen::Quaterniond(turn), Camera(in)};
+}
+
+// The points are projected by COLMAP's own formulas.
+TEST(ColmapModel, OfImagesAsDeliveredHasTheLensAndTheSamePoints) {
+  const SyntheticWorld world = MakeSyntheticWorld(120, 10);
+  SavedMap saved;
+  saved.camera = world.camera;
+  saved.map = MakeTrueMap(world, {PoseOnPath(0), PoseOnPath(25), PoseOnPath(40)}, {.noise = 0}).map;
+  const std::vector<PosedImage> others = {{7, "7.png", PoseOnPath(30)}};
+  const auto names = KeyFrameImageNames(saved.map);
+  const ColmapModel undistorted =
+      MakeColmapModel(saved, ExportCamera(saved.camera), names, {}, others);
+  for (const KnownLens& lens : LensesThatColmapKnows()) {
+    const ScratchFolder folder;
+    const ExportCamera camera = DeliveredBy(saved.camera, lens);
+    const ColmapModel model = MakeColmapModel(saved, camera, names, {}, others);
+    EXPECT_EQ(model.camera.model, lens.name);
+    WriteColmapText(folder.path(), model);
+    WriteColmapBinary(folder.path(), model);
+    ExpectEqual(ReadColmapBinary(folder.path()), model);
+    const ColmapModel read = ReadColmapText(folder.path());
+    ExpectEqual(read, model);
+    ASSERT_EQ(read.points.size(), undistorted.points.size());
+    for (std::size_t i = 0; i < read.points.size(); ++i) {
+      EXPECT_EQ(read.points[i].track, undistorted.points[i].track);
+      EXPECT_LT(ReprojectionErrorOf(read, read.points[i]), 1e-6) << lens.name;
+      EXPECT_LT(read.points[i].error, 1e-6);
+    }
+    const Eigen::Vector3d point = read.points.front().position;
+    EXPECT_LT((read.images.back().cam_from_world * point -
+               camera.PoseOf(others[0].cam_from_world) * point)
+                  .norm(),
+              1e-12);
+  }
+}
+
+TEST(ColmapCameraOf, KnowsNoLensThatColmapHasNot) {
+  using enum DistortionModel;
+  const RectifiedCamera rectified = MakeSyntheticWorld(0, 0).camera;
+  for (const KnownLens& lens : {KnownLens{"", kDoubleSphere, 220, {-0.18, 0.59}},
+                                {"", kEucm, 230, {0.63, 1.04}},
+                                {"", kOmni, 420, {0.9, -0.2, 0.05, 0.001, -0.0005}}}) {
+    EXPECT_FALSE(ColmapCameraOf(DeliveredBy(rectified, lens).intrinsics()));
+  }
+  const auto known =
+      ColmapCameraOf(DeliveredBy(rectified, LensesThatColmapKnows()[2]).intrinsics());
+  ASSERT_TRUE(known);
+  EXPECT_EQ(known->parameters,
+            (std::vector<double>{
+                460, 1.01 * 460, 371.3 + 0.5, 235.7 + 0.5, -0.28, 0.07, 0.0002, 0.00002}));
+}
+
 // Each image has two lines, one without features as well.
 TEST(WriteColmapText, WritesTheForm) {
   const ScratchFolder folder;
   ColmapModel model;
-  model.camera = {752, 480, 435, 420.25, 367.5, 252.5};
+  model.camera = {"PINHOLE", 752, 480, {435, 420.25, 367.5, 252.5}};
   model.images.push_back({1, {{1, 0, 0, 0}, {0, -0.5, 2}}, "a.png", {{{1.5, 2.5}, 9}, {{3, 4}}}});
   model.images.push_back({3, {{0, 1, 0, 0}, {0, 0, 0}}, "b.png", {}});
   model.points.push_back({9, {1, 2, 0.1}, {77, 0, 255}, 0.25, {{1, 0}}});
@@ -169,14 +262,15 @@ TEST(ColmapModel, LeavesOutPointsThatFewerThanTwoImagesShow) {
   const auto expected = std::count_if(points.begin(), points.end(), seen_twice);
   EXPECT_LT(expected, std::ssize(points));
   const auto count = [&] {
-    return std::ssize(MakeColmapModel(saved, KeyFrameImageNames(saved.map)).points);
+    return std::ssize(
+        MakeColmapModel(saved, ExportCamera(saved.camera), KeyFrameImageNames(saved.map)).points);
   };
   EXPECT_EQ(count(), expected);
   const PointId id = std::find_if(points.begin(), points.end(), seen_twice)->first;
   saved.map.Apply({edit::MovePoint{id, {0, 0, -50}}});  // behind all cameras
   EXPECT_EQ(count(), expected - 1);
   for (const ColmapModel::Image& image :
-       MakeColmapModel(saved, KeyFrameImageNames(saved.map)).images) {
+       MakeColmapModel(saved, ExportCamera(saved.camera), KeyFrameImageNames(saved.map)).images) {
     for (const ColmapModel::Keypoint& keypoint : image.keypoints) {
       EXPECT_NE(keypoint.point, id.value + 1);
     }
@@ -253,7 +347,7 @@ TEST(WriteLimapLines, GivesLinesWithTheSegmentsThatShowThem) {
   const SyntheticWorld world = MakeSyntheticWorld(0, 40);
   Map map = MakeTrueMap(world, {PoseOnPath(0), PoseOnPath(10), PoseOnPath(25)}, {}).map;
   map.Apply({edit::RemoveLine{map.lines().begin()->first}});
-  WriteLimapLines(folder.path(), map, KeyFrameImageNames(map));
+  WriteLimapLines(folder.path(), map, ExportCamera(world.camera), KeyFrameImageNames(map));
   const LimapFiles files = ReadLimap(folder);
   EXPECT_EQ(files.images.at(2), "50000000.png");
   ASSERT_EQ(files.images.size(), 3U);
@@ -281,11 +375,15 @@ TEST(WriteLimapLines, GivesLinesWithTheSegmentsThatShowThem) {
   const Segment2& first = map.Find(KeyFrameId{0})->frame.features().lines.front().segment;
   EXPECT_EQ(files.detections.at(1).front().front(), first.start.x() + 0.5);
   EXPECT_EQ(files.detections.at(1).front().back(), first.end.y() + 0.5);
+  const ExportCamera bent = DeliveredBy(world.camera, LensesThatColmapKnows().back());
+  WriteLimapLines(folder.path(), map, bent, KeyFrameImageNames(map));
+  EXPECT_EQ(ReadLimap(folder).detections.at(1).front().front(),
+            bent.PixelOf(first.start)->x() + 0.5);
 }
 
 TEST(WriteLimapLines, OfAMapWithoutAnythingIsThreeZeros) {
   const ScratchFolder folder;
-  WriteLimapLines(folder.path(), Map(), {});
+  WriteLimapLines(folder.path(), Map(), ExportCamera(RectifiedCamera()), {});
   for (const char* name : {"image_list.txt", "detections.txt", "alltracks.txt"}) {
     EXPECT_EQ(Contents(folder / name), "0\n");
   }
@@ -301,10 +399,10 @@ TEST(WriteColmapFolder, HasTheModelInTheFilesAskedForAndTheLines) {
   saved.camera = world.camera;
   saved.map = MakeTrueMap(world, {PoseOnPath(0), PoseOnPath(10)}, {}).map;
   const std::map<KeyFrameId, std::string> names = KeyFrameImageNames(saved.map);
-  const ColmapModel model = MakeColmapModel(saved, names);
+  const ColmapModel model = MakeColmapModel(saved, ExportCamera(saved.camera), names);
   for (const ColmapFiles files : {ColmapFiles::kText, ColmapFiles::kBinary, ColmapFiles::kBoth}) {
     const ScratchFolder folder;
-    WriteColmapFolder(folder.path(), saved.map, model, names, files);
+    WriteColmapFolder(folder.path(), saved.map, ExportCamera(saved.camera), model, names, files);
     for (const std::string name : {"cameras", "images", "points3D"}) {
       const std::filesystem::path file = folder / "sparse/0" / name;
       EXPECT_EQ(std::filesystem::exists(file.string() + ".txt"), files != ColmapFiles::kBinary);

@@ -228,6 +228,10 @@ def test_maps_are_exported_with_images(program, sequence, dataset, tmp_path):
     run.map.export(tmp_path / "of the run", "nerfstudio", images=dataset, frames="all",
                    trajectory=run.trajectory)  # it has more decimals than its file
     assert len(files_of(tmp_path / "of the run")) == 14
+    with pytest.raises(plumbline.InputError, match="undistort: goes with"):
+        run.map.export(tmp_path / "a", "colmap", undistort=True)
+    run.map.export(tmp_path / "whole", "colmap", images=dataset, frames="all", undistort=True)
+    assert len(files_of(tmp_path / "whole")) == len(files_of(tmp_path / "colmap/all/read"))
     run.map.export(tmp_path / "grey.ply", "ply")
     run.map.export(tmp_path / "seen.ply", "ply", images=dataset)
     grey, seen = ((tmp_path / name).read_text() for name in ("grey.ply", "seen.ply"))

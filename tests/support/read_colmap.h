@@ -5,6 +5,8 @@
 #include "plumbline/io/export/colmap_model.h"
 
 #include <bit>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +14,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 namespace plumbline {
 
@@ -97,6 +100,52 @@ inline void ExpectCamera(std::int64_t id) {
   if (id != ColmapModel::kCameraId) Fail("another camera");
 }
 
+// A camera model: its number in binary files, its name, and how many parameters it has.
+struct Model {
+  std::int32_t id;
+  const char* name;
+  std::size_t parameters;
+};
+constexpr Model kModels[] = {{1, "PINHOLE", 4},
+                             {4, "OPENCV", 8},
+                             {5, "OPENCV_FISHEYE", 8},
+                             {6, "FULL_OPENCV", 12},
+                             {7, "FOV", 5}};
+
+template <class Is>
+const Model& ModelThat(const Is& is) {
+  for (const Model& model : kModels) {
+    if (is(model)) return model;
+  }
+  Fail("another camera model");
+}
+
+// Pixel of a point in the frame of the camera.
+inline Eigen::Vector2d Project(const ColmapModel::Camera& camera, const Eigen::Vector3d& p) {
+  const std::vector<double>& k = camera.parameters;
+  const double u = p.x() / p.z(), v = p.y() / p.z();
+  const double r2 = u * u + v * v, r = std::sqrt(r2);
+  double x = u, y = v;
+  if (camera.model == "OPENCV" || camera.model == "FULL_OPENCV") {
+    const bool full = camera.model == "FULL_OPENCV";
+    const double above = 1 + k[4] * r2 + k[5] * r2 * r2 + (full ? k[8] * r2 * r2 * r2 : 0);
+    const double below = full ? 1 + k[9] * r2 + k[10] * r2 * r2 + k[11] * r2 * r2 * r2 : 1;
+    x = u * above / below + 2 * k[6] * u * v + k[7] * (r2 + 2 * u * u);
+    y = v * above / below + 2 * k[7] * u * v + k[6] * (r2 + 2 * v * v);
+  } else if (camera.model == "OPENCV_FISHEYE" && r > 0) {
+    const double t = std::atan2(r, 1.0), t2 = t * t;
+    const double bent =
+        t * (1 + k[4] * t2 + k[5] * t2 * t2 + k[6] * t2 * t2 * t2 + k[7] * t2 * t2 * t2 * t2);
+    x = u * bent / r;
+    y = v * bent / r;
+  } else if (camera.model == "FOV" && r > 0) {
+    const double bent = std::atan(r * 2 * std::tan(k[4] / 2)) / k[4];
+    x = u * bent / r;
+    y = v * bent / r;
+  }
+  return {k[0] * x + k[2], k[1] * y + k[3]};
+}
+
 }  // namespace read_colmap_detail
 
 inline ColmapModel ReadColmapText(const std::filesystem::path& folder) {
@@ -106,13 +155,12 @@ inline ColmapModel ReadColmapText(const std::filesystem::path& folder) {
   Lines cameras(folder / "cameras.txt");
   if (!cameras.Next(line)) Fail("no camera");
   ExpectCamera(Whole(line));
-  if (Word(line) != "PINHOLE") Fail("another camera model");
+  model.camera.model = Word(line);
+  const Model& known = ModelThat([&](const Model& m) { return m.name == model.camera.model; });
   model.camera.width = static_cast<int>(Whole(line));
   model.camera.height = static_cast<int>(Whole(line));
-  model.camera.fx = Real(line);
-  model.camera.fy = Real(line);
-  model.camera.cx = Real(line);
-  model.camera.cy = Real(line);
+  for (std::size_t i = 0; i < known.parameters; ++i) model.camera.parameters.push_back(Real(line));
+  if (!(line >> std::ws).eof()) Fail("more parameters than the model has");
 
   Lines images(folder / "images.txt");
   while (images.Next(line)) {
@@ -153,13 +201,14 @@ inline ColmapModel ReadColmapBinary(const std::filesystem::path& folder) {
   Bytes cameras(folder / "cameras.bin");
   if (cameras.Next<std::uint64_t>() != 1) Fail("a number of cameras");
   ExpectCamera(cameras.Next<std::uint32_t>());
-  if (cameras.Next<std::int32_t>() != 1) Fail("another camera model than PINHOLE");
+  const auto id = cameras.Next<std::int32_t>();
+  const Model& known = ModelThat([&](const Model& m) { return m.id == id; });
+  model.camera.model = known.name;
   model.camera.width = static_cast<int>(cameras.Next<std::uint64_t>());
   model.camera.height = static_cast<int>(cameras.Next<std::uint64_t>());
-  model.camera.fx = cameras.Next<double>();
-  model.camera.fy = cameras.Next<double>();
-  model.camera.cx = cameras.Next<double>();
-  model.camera.cy = cameras.Next<double>();
+  for (std::size_t i = 0; i < known.parameters; ++i) {
+    model.camera.parameters.push_back(cameras.Next<double>());
+  }
   cameras.ExpectEnd();
 
   Bytes images(folder / "images.bin");
@@ -206,8 +255,7 @@ inline double ReprojectionErrorOf(const ColmapModel& model, const ColmapModel::P
       if (image.id != view.image) continue;
       const Eigen::Vector3d p =
           image.cam_from_world.rotation * point.position + image.cam_from_world.translation;
-      const Eigen::Vector2d px(model.camera.fx * p.x() / p.z() + model.camera.cx,
-                               model.camera.fy * p.y() / p.z() + model.camera.cy);
+      const Eigen::Vector2d px = read_colmap_detail::Project(model.camera, p);
       sum += (px - image.keypoints.at(view.keypoint).px).norm();
     }
   }

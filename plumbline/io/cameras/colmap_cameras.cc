@@ -3,10 +3,10 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/io/camera_formats.h"
+#include "plumbline/io/cameras/colmap_camera_models.h"
 #include "plumbline/io/text_rows.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstddef>
 #include <optional>
@@ -20,24 +20,6 @@
 
 namespace plumbline {
 namespace {
-
-// A model of COLMAP: one focal length or two, then cx, cy and coefficients in our order.
-struct ColmapModel {
-  std::string_view name;
-  DistortionModel model;
-  std::size_t focal_lengths, coefficients;
-};
-constexpr std::array<ColmapModel, 10> kColmapModels = {
-    {{"SIMPLE_PINHOLE", DistortionModel::kNone, 1, 0},
-     {"PINHOLE", DistortionModel::kNone, 2, 0},
-     {"SIMPLE_RADIAL", DistortionModel::kRadTan, 1, 1},
-     {"RADIAL", DistortionModel::kRadTan, 1, 2},
-     {"OPENCV", DistortionModel::kRadTan, 2, 4},
-     {"FULL_OPENCV", DistortionModel::kRational, 2, 8},
-     {"SIMPLE_RADIAL_FISHEYE", DistortionModel::kEquidistant, 1, 1},
-     {"RADIAL_FISHEYE", DistortionModel::kEquidistant, 1, 2},
-     {"OPENCV_FISHEYE", DistortionModel::kEquidistant, 2, 4},
-     {"FOV", DistortionModel::kFov, 2, 1}}};
 
 // A row with an entry, and its number.
 struct ColmapRow {
@@ -68,10 +50,10 @@ bool IsWhole(const std::string& text) {
   throw InputError(fmt::format("{}:{}: {}", source, line, why));
 }
 
-const ColmapModel& ModelNamed(const std::string& source, const ColmapRow& row) {
+const ColmapCameraModel& ModelNamed(const std::string& source, const ColmapRow& row) {
   const std::string& name = row.fields[1];
   std::vector<std::string_view> names;
-  for (const ColmapModel& model : kColmapModels) {
+  for (const ColmapCameraModel& model : kColmapCameraModels) {
     if (name == model.name) return model;
     names.push_back(model.name);
   }
@@ -105,8 +87,8 @@ bool IsColmapCameras(const std::string& text) {
   if (rows.empty() || rows.front().fields.size() < kFewest) return false;
   const std::vector<std::string>& fields = rows.front().fields;
   const std::string& model = fields[1];
-  const bool known =
-      std::ranges::any_of(kColmapModels, [&](const ColmapModel& one) { return one.name == model; });
+  const bool known = std::ranges::any_of(
+      kColmapCameraModels, [&](const ColmapCameraModel& one) { return one.name == model; });
   return IsWhole(fields[0]) && (known || (IsWhole(fields[2]) && IsWhole(fields[3]))) &&
          std::all_of(model.begin(), model.end(), [](unsigned char c) {
            return std::isupper(c) != 0 || std::isdigit(c) != 0 || c == '_';
@@ -119,7 +101,7 @@ Calibration ReadColmapCameras(const std::string& text, const std::string& source
     FailInRow(source, rows[1].line, "expected one camera, found another one; leave one row");
   }
   const ColmapRow& row = rows.front();
-  const ColmapModel& model = ModelNamed(source, row);
+  const ColmapCameraModel& model = ModelNamed(source, row);
   std::vector<double> numbers;
   for (std::size_t i = 2; i < row.fields.size(); ++i) {
     const std::optional<double> number = ParseNumber(row.fields[i]);

@@ -3,9 +3,11 @@
 #include "plumbline/io/export/colmap_model.h"
 
 #include "plumbline/base/byte_stream.h"
+#include "plumbline/base/error.h"
 #include "plumbline/io/atomic_file.h"
-#include "plumbline/map/reprojection.h"
+#include "plumbline/io/cameras/colmap_camera_models.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <optional>
@@ -20,27 +22,53 @@ namespace {
 constexpr double kHalfPixel = 0.5;  // COLMAP counts pixels from the corner of the image
 constexpr Color kUnknownColor{128, 128, 128};
 
-ColmapModel::Image ImageOf(const KeyFrame& keyframe, const std::string& name) {
-  ColmapModel::Image image{ColmapImageId(keyframe.id), keyframe.frame.cam_from_world, name, {}};
+// Where a feature is in an exported image; outside of it if the lens shows nothing there.
+Eigen::Vector2d ColmapPixelOf(const ExportCamera& camera, const Eigen::Vector2d& rectified_px) {
+  const Eigen::Vector2d nowhere(-1, -1);
+  return camera.PixelOf(rectified_px).value_or(nowhere) + Eigen::Vector2d::Constant(kHalfPixel);
+}
+
+ColmapModel::Image ImageOf(const ExportCamera& camera,
+                           const KeyFrame& keyframe,
+                           const std::string& name) {
+  ColmapModel::Image image{
+      ColmapImageId(keyframe.id), camera.PoseOf(keyframe.frame.cam_from_world), name, {}};
   for (const PointFeature& feature : keyframe.frame.features().points) {
-    image.keypoints.push_back({feature.px + Eigen::Vector2d::Constant(kHalfPixel)});
+    image.keypoints.push_back({ColmapPixelOf(camera, feature.px)});
   }
   return image;
 }
 
+// Returns the distance in an exported image between a feature and the projection of a point.
+std::optional<double> ErrorIn(const ExportCamera& camera,
+                              const Frame& frame,
+                              int feature,
+                              const Eigen::Vector3d& in_world) {
+  const auto projected = camera.Project(frame.cam_from_world * in_world);
+  const auto measured =
+      camera.PixelOf(frame.features().points[static_cast<std::size_t>(feature)].px);
+  if (!projected || !measured) return std::nullopt;
+  return (*projected - *measured).norm();
+}
+
 // Returns the point with its views; nullopt if there are too few for COLMAP.
-std::optional<ColmapModel::Point> PointOf(const SavedMap& saved, const MapPoint& point) {
+std::optional<ColmapModel::Point> PointOf(const SavedMap& saved,
+                                          const ExportCamera& camera,
+                                          const MapPoint& point) {
   constexpr std::size_t kMinViews = 2;
   ColmapModel::Point result;
   result.id = point.id.value + 1;
   result.position = point.position;
+  double sum = 0;
   for (const auto& [keyframe, feature] : point.observations) {
     const Frame& frame = saved.map.Find(keyframe)->frame;
-    if (!ReprojectionError(saved.camera, frame, feature, point.position)) continue;
+    const auto error = ErrorIn(camera, frame, feature, point.position);
+    if (!error) continue;
+    sum += *error;
     result.track.push_back({ColmapImageId(keyframe), static_cast<std::uint32_t>(feature)});
   }
   if (result.track.size() < kMinViews) return std::nullopt;
-  result.error = *MeanReprojectionError(saved.camera, saved.map, point);
+  result.error = sum / static_cast<double>(result.track.size());
   return result;
 }
 
@@ -56,7 +84,11 @@ std::string CamerasText(const ColmapModel& model) {
   std::string text =
       "# Cameras, one line each: CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n"
       "# Number of cameras: 1\n";
-  Append(text, ColmapModel::kCameraId, "PINHOLE", c.width, c.height, c.fx, c.fy, c.cx, c.cy);
+  Append(text, ColmapModel::kCameraId, c.model, c.width, c.height);
+  for (const double parameter : c.parameters) {
+    text += ' ';
+    Append(text, parameter);
+  }
   return text + "\n";
 }
 
@@ -108,12 +140,13 @@ void Put(ByteWriter& writer, const Numbers&... numbers) {
 }
 
 std::string CamerasBinary(const ColmapModel& model) {
-  constexpr std::int32_t kPinhole = 1;
   const ColmapModel::Camera& c = model.camera;
+  const auto known = std::ranges::find(kColmapCameraModels, c.model, &ColmapCameraModel::name);
+  PLUMBLINE_CHECK(known != kColmapCameraModels.end(), "a camera model of COLMAP");
   ByteWriter writer;
-  Put(writer, std::uint64_t{1}, ColmapModel::kCameraId, kPinhole);
+  Put(writer, std::uint64_t{1}, ColmapModel::kCameraId, known->id);
   Put(writer, static_cast<std::uint64_t>(c.width), static_cast<std::uint64_t>(c.height));
-  Put(writer, c.fx, c.fy, c.cx, c.cy);
+  for (const double parameter : c.parameters) writer(parameter);
   return writer.Take();
 }
 
@@ -156,17 +189,15 @@ std::string ImageList(const Map& map, const std::map<KeyFrameId, std::string>& n
   return text;
 }
 
-std::string Detections(const Map& map) {
+std::string Detections(const Map& map, const ExportCamera& camera) {
   std::string text = fmt::format("{}\n", map.keyframes().size());
   for (const auto& [id, keyframe] : map.keyframes()) {
     const std::vector<LineFeature>& lines = keyframe.frame.features().lines;
     text += fmt::format("{} {}\n", ColmapImageId(id), lines.size());
     for (const LineFeature& line : lines) {
-      text += fmt::format("{} {} {} {}\n",
-                          line.segment.start.x() + kHalfPixel,
-                          line.segment.start.y() + kHalfPixel,
-                          line.segment.end.x() + kHalfPixel,
-                          line.segment.end.y() + kHalfPixel);
+      const Eigen::Vector2d start = ColmapPixelOf(camera, line.segment.start);
+      const Eigen::Vector2d end = ColmapPixelOf(camera, line.segment.end);
+      text += fmt::format("{} {} {} {}\n", start.x(), start.y(), end.x(), end.y());
     }
   }
   return text;
@@ -196,24 +227,48 @@ std::string Tracks(const Map& map) {
 
 }  // namespace
 
+std::optional<ColmapModel::Camera> ColmapCameraOf(const CameraIntrinsics& intrinsics) {
+  CameraIntrinsics in = intrinsics;
+  if (Camera(in).IsIdeal()) {
+    in.model = DistortionModel::kNone;
+    in.distortion = {};
+  }
+  // A radtan lens is a rational one without denominator.
+  const bool is_rational = in.model == DistortionModel::kRadTan;
+  for (const ColmapCameraModel& one : kColmapCameraModels) {
+    const bool same =
+        one.model == in.model || (is_rational && one.model == DistortionModel::kRational);
+    const auto rest = in.distortion.begin() + static_cast<std::ptrdiff_t>(one.coefficients);
+    if (!same || one.focal_lengths != 2) continue;
+    if (std::any_of(rest, in.distortion.end(), [](double k) { return k != 0; })) continue;
+    ColmapModel::Camera camera{std::string(one.name), in.width, in.height, {}};
+    camera.parameters = {in.fx, in.fy, in.cx + kHalfPixel, in.cy + kHalfPixel};
+    camera.parameters.insert(camera.parameters.end(), in.distortion.begin(), rest);
+    return camera;
+  }
+  return std::nullopt;
+}
+
 ColmapModel MakeColmapModel(const SavedMap& saved,
+                            const ExportCamera& camera,
                             const std::map<KeyFrameId, std::string>& names,
                             const PointColors& colors,
                             std::span<const PosedImage> others) {
-  const RectifiedCamera& c = saved.camera;
+  const std::optional<ColmapModel::Camera> known = ColmapCameraOf(camera.intrinsics());
+  PLUMBLINE_CHECK(known.has_value(), "a camera that COLMAP knows");
   ColmapModel model;
-  model.camera = {c.width, c.height, c.fx, c.fy, c.cx + kHalfPixel, c.cy + kHalfPixel};
+  model.camera = *known;
   std::map<std::uint32_t, std::size_t> image_of;  // index of the image of each id
   for (const auto& [id, keyframe] : saved.map.keyframes()) {
     image_of[ColmapImageId(id)] = model.images.size();
-    model.images.push_back(ImageOf(keyframe, names.at(id)));
+    model.images.push_back(ImageOf(camera, keyframe, names.at(id)));
   }
   std::uint32_t next_id = model.images.empty() ? 1 : model.images.back().id + 1;
   for (const PosedImage& other : others) {
-    model.images.push_back({next_id++, other.cam_from_world, other.name, {}});
+    model.images.push_back({next_id++, camera.PoseOf(other.cam_from_world), other.name, {}});
   }
   for (const auto& [id, point] : saved.map.points()) {
-    std::optional<ColmapModel::Point> exported = PointOf(saved, point);
+    std::optional<ColmapModel::Point> exported = PointOf(saved, camera, point);
     if (!exported) continue;
     const auto color = colors.find(id);
     for (const ColmapModel::View& view : exported->track) {
@@ -239,14 +294,16 @@ void WriteColmapBinary(const std::filesystem::path& folder, const ColmapModel& m
 
 void WriteLimapLines(const std::filesystem::path& folder,
                      const Map& map,
+                     const ExportCamera& camera,
                      const std::map<KeyFrameId, std::string>& names) {
   WriteFileAtomically(folder / "image_list.txt", ImageList(map, names));
-  WriteFileAtomically(folder / "detections.txt", Detections(map));
+  WriteFileAtomically(folder / "detections.txt", Detections(map, camera));
   WriteFileAtomically(folder / "alltracks.txt", Tracks(map));
 }
 
 void WriteColmapFolder(const std::filesystem::path& folder,
                        const Map& map,
+                       const ExportCamera& camera,
                        const ColmapModel& model,
                        const std::map<KeyFrameId, std::string>& names,
                        ColmapFiles files) {
@@ -255,7 +312,7 @@ void WriteColmapFolder(const std::filesystem::path& folder,
   if (files != ColmapFiles::kBinary) WriteColmapText(sparse, model);
   if (files != ColmapFiles::kText) WriteColmapBinary(sparse, model);
   MakeFolder(folder / "lines");
-  WriteLimapLines(folder / "lines", map, names);
+  WriteLimapLines(folder / "lines", map, camera, names);
 }
 
 }  // namespace plumbline

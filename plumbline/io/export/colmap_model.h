@@ -4,6 +4,7 @@
 
 #include "plumbline/geometry/se3.h"
 #include "plumbline/image/color_image.h"
+#include "plumbline/io/export/export_camera.h"
 #include "plumbline/io/export/keyframe_images.h"
 #include "plumbline/io/map_file/map_io.h"
 #include "plumbline/map/map.h"
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -22,15 +24,16 @@
 
 namespace plumbline {
 
-// A sparse model as COLMAP defines it: pixel centres at (0.5, 0.5), one camera (id 1, model
-// PINHOLE), poses cam_from_world, camera frame x right, y down, z forward.
+// A sparse model as COLMAP defines it: pixel centres at (0.5, 0.5), one camera (id 1), poses
+// cam_from_world, camera frame x right, y down, z forward.
 struct ColmapModel {
   static constexpr std::uint32_t kCameraId = 1;
   static constexpr std::int64_t kNoPoint = -1;
 
   struct Camera {
+    std::string model = "PINHOLE";  // one of kColmapCameraModels
     int width = 0, height = 0;
-    double fx = 0, fy = 0, cx = 0, cy = 0;
+    std::vector<double> parameters;  // in the order of the model
     friend bool operator==(const Camera&, const Camera&) = default;
   };
   struct Keypoint {
@@ -63,16 +66,22 @@ struct ColmapModel {
 
 using PointColors = std::map<PointId, Color>;
 
-// Returns a map as a COLMAP model: the rectified left camera, an image for each keyframe with all
-// of its point features, and the points observed by at least two keyframes. COLMAP refuses to
-// adjust a model with other points. Ids are those of the map plus 1. Observations of a point not in
-// front of the camera are left out.
+// Returns the camera of a lens in COLMAP, in the model with two focal lengths and the fewest
+// coefficients that is the same; nullopt if it has none.
+std::optional<ColmapModel::Camera> ColmapCameraOf(const CameraIntrinsics& intrinsics);
+
+// Returns a map as a COLMAP model: the camera of the images, an image for each keyframe with all of
+// its point features, and the points observed by at least two keyframes. COLMAP refuses to adjust a
+// model with other points. Ids are those of the map plus 1. Observations of a point not in front of
+// the camera are left out.
 //
+//   camera  one of which ColmapCameraOf knows the lens
 //   names   names of the images of all keyframes
 //   colors  colours of points, if known; other points are grey, 128
 //   others  images of other frames: their ids follow those of the keyframes, in this order; they
 //           have no features
 ColmapModel MakeColmapModel(const SavedMap& saved,
+                            const ExportCamera& camera,
                             const std::map<KeyFrameId, std::string>& names,
                             const PointColors& colors = {},
                             std::span<const PosedImage> others = {});
@@ -98,9 +107,11 @@ void WriteColmapBinary(const std::filesystem::path& folder, const ColmapModel& m
 //                   the segments among the detections of these images
 //
 // The lines are the landmarks, from end to end of their intervals, weak ones included; they are
-// counted from 0 in the order of their ids. Throws InputError if a file cannot be written.
+// counted from 0 in the order of their ids. Segments are straight in rectified images alone; in
+// others their ends are where they are. Throws InputError if a file cannot be written.
 void WriteLimapLines(const std::filesystem::path& folder,
                      const Map& map,
+                     const ExportCamera& camera,
                      const std::map<KeyFrameId, std::string>& names);
 
 // File formats of a COLMAP model.
@@ -116,6 +127,7 @@ constexpr auto EnumNames(std::type_identity<ColmapFiles>) {
 // InputError if a folder or file cannot be written.
 void WriteColmapFolder(const std::filesystem::path& folder,
                        const Map& map,
+                       const ExportCamera& camera,
                        const ColmapModel& model,
                        const std::map<KeyFrameId, std::string>& names,
                        ColmapFiles files = ColmapFiles::kBoth);

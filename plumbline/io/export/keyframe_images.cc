@@ -219,11 +219,21 @@ ColorImage KeyFrameImages::ReadRaw(std::int64_t stamp_ns) const {
   return *std::move(read);
 }
 
-ColorImage KeyFrameImages::ReadAt(std::int64_t stamp_ns) const {
-  return Rectified(*rectifier_, ReadRaw(stamp_ns));
+ExportCamera KeyFrameImages::DeliveredCamera() const {
+  const RectifiedCamera& rectified = rectifier_->camera();
+  if (rectifier_->PassesUnchanged()) return ExportCamera(rectified);
+  return {rectified, rectifier_->rectified_left_from_left(), dataset_->calibration().left};
 }
 
-ColorImage KeyFrameImages::Read(const KeyFrame& keyframe) const {
+ColorImage KeyFrameImages::InForm(ColorImage raw, ImageForm form) const {
+  return form == ImageForm::kDelivered ? raw : Rectified(*rectifier_, std::move(raw));
+}
+
+ColorImage KeyFrameImages::ReadAt(std::int64_t stamp_ns, ImageForm form) const {
+  return InForm(ReadRaw(stamp_ns), form);
+}
+
+ColorImage KeyFrameImages::Read(const KeyFrame& keyframe, ImageForm form) const {
   ColorImage image = ReadRaw(keyframe.frame.stamp_ns);
   const bool compare = octave_scale_.has_value();
   if (compare && !MayShow(Rectified(*rectifier_, ToGray(image)), keyframe, *octave_scale_)) {
@@ -234,7 +244,7 @@ ColorImage KeyFrameImages::Read(const KeyFrame& keyframe) const {
                     FormatStamp(keyframe.frame.stamp_ns),
                     keyframe.id.value));
   }
-  return Rectified(*rectifier_, std::move(image));
+  return InForm(std::move(image), form);
 }
 
 }  // namespace plumbline

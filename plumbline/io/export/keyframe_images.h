@@ -6,6 +6,7 @@
 #include "plumbline/image/color_image.h"
 #include "plumbline/image/rectify.h"
 #include "plumbline/io/datasets/dataset.h"
+#include "plumbline/io/export/export_camera.h"
 #include "plumbline/io/map_file/map_io.h"
 
 #include <cstdint>
@@ -16,6 +17,10 @@
 #include <string>
 
 namespace plumbline {
+
+// Form of an exported image: as delivered by the camera, turned and reduced as for the run, or that
+// of the map's camera, a pinhole without distortion, rectified for stereo.
+enum class ImageForm { kDelivered, kUndistorted };
 
 // An exported frame that is no keyframe: the name of its image, and the pose of the rectified left
 // camera.
@@ -30,9 +35,8 @@ struct PosedImage {
 // "<stamp>_2.png", "<stamp>_3.png" and so on.
 std::map<KeyFrameId, std::string> KeyFrameImageNames(const Map& map);
 
-// The images of a map's keyframes, and of other frames, for the camera of the map: without
-// distortion, rectified for stereo, in colour if the data have colour. They are found by their time
-// stamps in the data of the map.
+// The images of a map's keyframes, and of other frames, in colour if the data have colour. They are
+// found by their time stamps in the data of the map.
 //
 // Equal stamps do not prove that the data are the same: the stamps of a reversed run are mirrored,
 // and sessions of one map may have the same stamps. Descriptors are therefore computed again at the
@@ -54,14 +58,16 @@ class KeyFrameImages {
   // Reads the left image. Throws InputError if it cannot be read, and if it differs from that of
   // the keyframe. The comparison needs a map with an octave_scale; keyframes with very few features
   // are not compared.
-  ColorImage Read(const KeyFrame& keyframe) const;
+  ColorImage Read(const KeyFrame& keyframe, ImageForm form = ImageForm::kUndistorted) const;
 
   // Returns true if the data have a frame of exactly this time.
   bool HasFrame(std::int64_t stamp_ns) const;
   // Reads the left image of an existing frame, without comparison with a keyframe. Throws
   // InputError if it cannot be read.
-  ColorImage ReadAt(std::int64_t stamp_ns) const;
+  ColorImage ReadAt(std::int64_t stamp_ns, ImageForm form = ImageForm::kUndistorted) const;
 
+  // Camera of the images as delivered; that of the map where both are the same.
+  ExportCamera DeliveredCamera() const;
   // The data.
   const std::filesystem::path& path() const { return dataset_->info().path; }
 
@@ -71,6 +77,7 @@ class KeyFrameImages {
                                  const SavedMap& saved);
   void CheckKeyFrames(const SavedMap& saved) const;
   ColorImage ReadRaw(std::int64_t stamp_ns) const;
+  ColorImage InForm(ColorImage raw, ImageForm form) const;
 
   std::optional<double> octave_scale_;
   std::shared_ptr<const Dataset> dataset_;
