@@ -17,34 +17,48 @@ namespace {
 constexpr std::size_t kGap = 5;  // keyframes
 constexpr std::size_t kFewestPairs = 5;
 constexpr double kStillPx = 1;
-constexpr int kStillBits = 50;  // of 256
 // Of the features of a keyframe: a camera at rest has more, a view of the scene alone has fewer.
 constexpr double kRestShare = 0.6, kManyShare = 0.02;
-constexpr std::size_t kManyFeatures = 8;
+constexpr double kManyFeatures = 8;
 
 using Cell = std::pair<int, int>;
 Cell CellOf(const Eigen::Vector2d& px) {
   return {static_cast<int>(std::floor(px.x())), static_cast<int>(std::floor(px.y()))};
 }
 
-std::size_t CountStill(const std::vector<PointFeature>& before,
-                       const std::vector<PointFeature>& now) {
-  std::multimap<Cell, const PointFeature*> cells;
-  for (const PointFeature& feature : before) cells.emplace(CellOf(feature.px), &feature);
-  std::size_t still = 0;
+using Cells = std::multimap<Cell, const PointFeature*>;
+
+// Returns the number of features that, displaced by an offset, are where a feature of the same
+// octave was before.
+std::size_t CountAt(const Cells& before,
+                    const std::vector<PointFeature>& now,
+                    const Eigen::Vector2d& offset) {
+  std::size_t count = 0;
   for (const PointFeature& feature : now) {
-    const Cell centre = CellOf(feature.px);
+    const Eigen::Vector2d px = feature.px + offset;
+    const Cell centre = CellOf(px);
     bool found = false;
     for (int i = 0; i < 9 && !found; ++i) {
-      const auto range = cells.equal_range({centre.first + i % 3 - 1, centre.second + i / 3 - 1});
+      const auto range = before.equal_range({centre.first + i % 3 - 1, centre.second + i / 3 - 1});
       for (auto at = range.first; at != range.second && !found; ++at) {
-        found = (at->second->px - feature.px).norm() <= kStillPx &&
-                HammingDistance(at->second->descriptor, feature.descriptor) <= kStillBits;
+        found = at->second->octave == feature.octave && (at->second->px - px).norm() <= kStillPx;
       }
     }
-    still += found ? 1 : 0;
+    count += found ? 1 : 0;
   }
-  return still;
+  return count;
+}
+
+// Returns how many features are as near to one of before by chance: the mean of those displaced to
+// four sides, farther than a feature is uncertain.
+double CountByChance(const Cells& before, const std::vector<PointFeature>& now) {
+  constexpr double kAway = 9;
+  std::size_t count = 0;
+  for (const Eigen::Vector2d& side :
+       {Eigen::Vector2d(kAway, 0), {-kAway, 0}, {0, kAway}, {0, -kAway}}) {
+    count += CountAt(before, now, side);
+  }
+  return 0.25 * static_cast<double>(count);
 }
 
 }  // namespace
@@ -58,15 +72,19 @@ void StillFeatureFinder::Add(std::vector<PointFeature> points) {
     return;
   }
   std::vector<PointFeature>& before = last_[number_++ % kGap];
-  const std::size_t still = CountStill(before, points);
-  const double share =
-      points.empty() ? 1 : static_cast<double>(still) / static_cast<double>(points.size());
+  Cells cells;
+  for (const PointFeature& feature : before) cells.emplace(CellOf(feature.px), &feature);
+  const auto all = static_cast<double>(points.size());
+  auto still = static_cast<double>(CountAt(cells, points, Eigen::Vector2d::Zero()));
+  const auto many = [&] { return still >= kManyFeatures && still >= kManyShare * all; };
+  const bool rests = still > kRestShare * all || points.empty();
+  if (!rests && many()) still -= CountByChance(cells, points);
   before = std::move(points);
-  if (share > kRestShare) return;
+  if (rests) return;
   ++found_.pairs;
-  if (still < kManyFeatures || share < kManyShare) return;
+  if (!many()) return;
   ++found_.with_still;
-  shares_ += share;
+  shares_ += still / all;
 }
 
 StillFeatures StillFeatureFinder::Result() const {

@@ -38,9 +38,10 @@ class StillFeatureFinder {
   double shares_ = 0;
 };
 
-// Compares each keyframe with the fifth before it, of the same session: features within a pixel of
-// each other and with similar descriptors stand still. Pairs in which most features do are of a
-// camera that rests, and do not count. O(features of all keyframes).
+// Compares each keyframe with the fifth before it, of the same session: features of one octave
+// within a pixel of each other stand still, but for as many as do so by chance. Descriptors are not
+// compared, since around thin text they show the scene. Pairs in which most features stand still
+// are of a camera that rests, and do not count. O(features of all keyframes).
 StillFeatures FindStillFeatures(const Map& map);
 
 // Returns the note about them for users; nullopt if they are not likely to be in most images.

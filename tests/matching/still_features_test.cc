@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -61,6 +62,35 @@ TEST(FindStillFeatures, TellsTextInAllImages) {
   EXPECT_NEAR(still.share, 0.06, 0.01);
   EXPECT_THAT(StillFeaturesNote(still),
               ::testing::Optional(::testing::HasSubstr("6 % of the points stand still")));
+}
+
+// Descriptors around thin text are those of the scene behind it.
+TEST(StillFeatureFinder, TellsTextBeforeAScene) {
+  Rng rng(8, "still_features");
+  std::vector<PointFeature> text;
+  for (int i = 0; i < 30; ++i) text.push_back(RandomFeature(rng));
+  StillFeatureFinder finder;
+  for (int k = 0; k < 20; ++k) {
+    std::vector<PointFeature> points = text;
+    for (PointFeature& feature : points) feature.descriptor = RandomFeature(rng).descriptor;
+    while (points.size() < 500) points.push_back(RandomFeature(rng));
+    finder.Add(points);
+  }
+  EXPECT_TRUE(finder.Result().Likely());
+  EXPECT_NEAR(finder.Result().share, 0.06, 0.01);
+}
+
+// Of many features some lie where others were.
+TEST(StillFeatureFinder, KnowsWhatIsThereByChance) {
+  Rng rng(9, "still_features");
+  StillFeatureFinder finder;
+  for (int k = 0; k < 20; ++k) {
+    std::vector<PointFeature> points(4000);
+    for (PointFeature& feature : points) feature = RandomFeature(rng);
+    finder.Add(points);
+  }
+  EXPECT_EQ(finder.Result().pairs, 15U);
+  EXPECT_FALSE(finder.Result().Likely());
 }
 
 TEST(StillFeatureFinder, TellsOfImagesWithoutAMap) {
