@@ -10,6 +10,7 @@
 #include "plumbline/slam/pipeline.h"
 #include "plumbline/viewer/viewer.h"
 
+#include "apps/counted.h"
 #include "apps/inertial_input.h"
 #include "apps/map_saver.h"
 #include "apps/program_methods.h"
@@ -97,6 +98,7 @@ class FrameFeed {
       if (failure) std::rethrow_exception(failure);
     });
     NameShortage();
+    TellBlackMasks();
     TellStillFeatures();
     TellInertial();
     Keeping([&] { FinishViewing(); });
@@ -111,6 +113,7 @@ class FrameFeed {
     if (record.shed == LoadLevel::kFrame) {
       progress_.Say(fmt::format("frame {} dropped: tracking is behind", position));
     }
+    if (record.reason == Pipeline::kBlackMask) ++black_masks_;
     if (!result_.first_pose_seconds && record.status == FrameStatus::kTracked) {
       result_.first_pose_seconds = SecondsSinceProcessStart();
     }
@@ -222,15 +225,26 @@ class FrameFeed {
     still_.Add(MeasuredFeatures(*view.frame.indexed).points);
   }
 
+  void TellBlackMasks() {
+    if (black_masks_ == 0) return;
+    Tell(
+        fmt::format("{} left out, since their masks are all black: are these inverted? What is "
+                    "black is not used",
+                    Counted(black_masks_, "frame")));
+  }
+
   // Tells of text or a part of the robot in the images.
   void TellStillFeatures() {
     std::optional<std::string> note = StillFeaturesNote(still_.Result());
     for (const auto& [id, map] : result_.result.atlas.maps()) {
       if (!note) note = StillFeaturesNote(FindStillFeatures(map));
     }
-    if (!note) return;
-    result_.notes.push_back(*note);
-    if (!quiet_) progress_.Say(*note);
+    if (note) Tell(*note);
+  }
+
+  void Tell(const std::string& note) {
+    result_.notes.push_back(note);
+    if (!quiet_) progress_.Say(note);
   }
 
   void TellInertial() {
@@ -286,6 +300,7 @@ class FrameFeed {
   Processed result_;
   // The tracking thread's until it ends.
   std::size_t frames_done_ = 0;
+  std::size_t black_masks_ = 0;  // frames left out for them
   MapEventCounts events_shown_;
   StillFeatureFinder still_;        // of the frames without a pose
   int without_depth_ = 0;           // depth images that were looked at

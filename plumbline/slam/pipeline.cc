@@ -5,9 +5,20 @@
 #include "plumbline/base/error.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 
 namespace plumbline {
+namespace {
+
+bool IsBlack(const GrayImage& mask) {
+  const std::ptrdiff_t pixels = std::ptrdiff_t{mask.width()} * mask.height();
+  return std::all_of(
+      mask.data(), mask.data() + pixels, [](std::uint8_t level) { return level == 0; });
+}
+
+}  // namespace
 
 Pipeline::Pipeline(System& system, Observer observer)
     : system_(system),
@@ -31,6 +42,10 @@ void Pipeline::AddInertial(std::span<const InertialSample> samples) {
 }
 
 void Pipeline::Feed(SensorFrame frame) {
+  if (frame.left_mask && IsBlack(*frame.left_mask)) {
+    Skip(frame.stamp_ns, kBlackMask);
+    return;
+  }
   Job job;
   job.stamp_ns = frame.stamp_ns;
   if (mode_ == RunMode::kLive) {

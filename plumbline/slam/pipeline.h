@@ -53,6 +53,8 @@ class Pipeline {
   using Observer = std::function<void(const FrameRecord&, const FrameView&)>;
   // Reason in the records of frames that a live run left out because they waited too long.
   static constexpr const char* kDropped = "dropped";
+  // That of frames whose left mask is all black.
+  static constexpr const char* kBlackMask = "mask_black";
   // Most frames with images that wait for tracking.
   static constexpr std::size_t kMaxWaiting = 2;
 
@@ -69,7 +71,7 @@ class Pipeline {
   // on that is fed, or skipped.
   void AddInertial(std::span<const InertialSample> samples);
   // Takes the next frame, in order of time. Exceptions that System::Process would throw for it are
-  // thrown by this call or a later one.
+  // thrown by this call or a later one. A frame of which the left mask leaves nothing is skipped.
   void Feed(SensorFrame frame);
   // Adds a frame that could not be read. `reason` goes into its record, for example
   // "image_unreadable"; it must not be empty (BugError).

@@ -464,6 +464,29 @@ TEST(MapExport, GivesImagesAsTheRunUsedThem) {
   ExpectRefusal(run(" --max-width 3"), "--max-width: expected a whole number from 16 to 100000");
 }
 
+// A map of a run with --view-angle, of a lens that keeps its size without.
+TEST(MapExport, FindsTheViewAngleOfTheRun) {
+  const ScratchFolder folder;
+  const std::string sequence = Quoted(WritePosterSequence(folder, 24));
+  const Outcome run = RunProgram(
+      folder,
+      "run " + sequence + " --view-angle 55 --max-width 360 --out " + Quoted(folder / "run"));
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto export_with = [&](const std::string& arguments) {
+    return RunProgram(folder,
+                      "map export " + Quoted(folder / "run/map.plb") + " --to colmap --images " +
+                          sequence + arguments + " --out " + Quoted(folder / "data"));
+  };
+  ExpectRefusal(export_with(" --view-angle 45"), "view angles of 55 and 45 degrees");
+  const Outcome outcome = export_with("");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const ColmapModel model = ReadColmapText(folder / "data/sparse/0");
+  EXPECT_EQ(model.camera.width, 360);
+  for (const ColmapModel::Point& point : model.points) {
+    EXPECT_NEAR(ReprojectionErrorOf(model, point), point.error, 1e-6);
+  }
+}
+
 // An image that cannot be read ends an export without a trace.
 TEST(MapExport, LeavesNothingWhenAnImageIsBroken) {
   const ScratchFolder folder;

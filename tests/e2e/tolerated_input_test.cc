@@ -4,6 +4,7 @@
 // What is wrong with data and does not refuse a run: it is told, and left out where it cannot be
 // used. What is left may be too little for a pose.
 #include "plumbline/base/crc32.h"
+#include "plumbline/io/export/png.h"
 
 #include "tests/e2e/poster_run.h"
 #include "tests/e2e/poster_sequence.h"
@@ -101,6 +102,26 @@ TEST(ToleratedInput, AFaultOfTheGroundTruthIsSaidOnce) {
 
 // Rows of a reference that cannot be used are left out and told; the errors are those of the
 // others.
+TEST(ToleratedInput, FramesWithABlackMaskAreSkippedAndTold) {
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 12);
+  const GrayImage image = MovingPoster().Frame(0).left;
+  fs::create_directory(sequence / "mask0");
+  for (const int frame : {4, 5, 6, 7}) {
+    const std::uint8_t level = frame == 4 || frame == 5 ? 0 : 255;
+    WriteGrayPng(sequence / fmt::format("mask0/{}.png", frame),
+                 GrayImage(image.width(), image.height(), level));
+  }
+  const Outcome run =
+      RunProgram(folder, "run " + Quoted(sequence) + " --out " + Quoted(folder / "out"));
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("4 of the 12 images of the data have a mask in "));
+  EXPECT_THAT(run.err, HasSubstr("2 frames left out, since their masks are all black"));
+  EXPECT_THAT(Contents(folder / "out/frames.csv"), HasSubstr("skipped,,mask_black,"));
+  const auto summary = nlohmann::json::parse(Contents(folder / "out/summary.json"));
+  EXPECT_THAT(summary["notes"].dump(), HasSubstr("2 frames left out"));
+}
+
 TEST(ToleratedInput, RowsOfTheGroundTruthAreLeftOut) {
   const ScratchFolder folder;
   const fs::path sequence = WritePosterSequence(folder, 6);

@@ -8,6 +8,7 @@
 
 #include "tests/io/dataset_fixtures.h"
 #include "tests/io/scratch_folder.h"
+#include "tests/support/euroc_calibration.h"
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -162,7 +163,8 @@ TEST(PreparedDataset, FramesMayHaveMasksOfTheirOwn) {
   const auto own = OpenDataset(folder.path());
   EXPECT_EQ(own->Read(0)->left_mask->at(4, 0), 0);
   EXPECT_EQ(own->Read(0)->left_mask->at(5, 0), 255);
-  EXPECT_THAT(own->info().notes, testing::Contains(HasSubstr("images have a mask in ")));
+  EXPECT_THAT(own->info().notes,
+              testing::Contains(HasSubstr("images of the data have a mask in ")));
   const auto both = OpenDataset(folder.path(), {.masks = {mask}});
   EXPECT_EQ(both->Read(0)->left_mask->at(4, 0), 0);
   folder.Write("mask0/1.png", MaskOf(8, 6, 1));
@@ -194,6 +196,44 @@ TEST(PreparedDataset, ABadMaskOfAFrameCostsTheMaskAlone) {
                 testing::Contains(testing::AllOf(HasSubstr("mask0/1.png: "),
                                                  HasSubstr("this mask cannot be used"))));
   }
+}
+
+TEST(PreparedDataset, TellsWhatMasksOfFramesLeaveOut) {
+  const ScratchFolder folder;
+  WriteTumFolder(folder);
+  const auto notes = [&](const std::string& mask) {
+    folder.Write("mask0/1.png", mask);
+    const auto dataset = OpenDataset(folder.path());
+    EXPECT_TRUE(dataset->Read(0));
+    return dataset->info().notes;
+  };
+  EXPECT_THAT(notes(MaskOf(8, 6, 2)),
+              testing::Contains(
+                  testing::AllOf(HasSubstr("1 of the "),
+                                 HasSubstr(" images of the data have a mask in "),
+                                 testing::EndsWith("mask0; they leave out 25 % of the image"))));
+  EXPECT_THAT(notes(MaskOf(8, 6, 8)), testing::Contains(HasSubstr("100 % of the image; are they")));
+  std::filesystem::remove_all(folder / "mask0");
+  for (const char* name : {"mask0.png", "mask0"}) {
+    folder.Write(name, MaskOf(8, 6, 2));
+    EXPECT_THAT(OpenDataset(folder.path())->info().notes,
+                testing::Contains(testing::AllOf(HasSubstr((folder / name).string() + " is not"),
+                                                 HasSubstr("--mask"))));
+    std::filesystem::remove(folder / name);
+  }
+}
+
+TEST(FramePreparation, TellsThatOneMaskOfAPairIsOfTheLeftCamera) {
+  const ScratchFolder folder;
+  Calibration pair = EurocCalibration();
+  const std::string mask = folder.Write("mask.png", MaskOf(752, 480, 3)).string();
+  const auto notes = [&](const std::vector<std::string>& masks) {
+    return FramePreparation(pair, {}, {.masks = masks}).MaskNotes();
+  };
+  EXPECT_THAT(notes({mask}), testing::Contains(HasSubstr("--mask is of the left camera")));
+  EXPECT_THAT(notes({mask, mask}), testing::Not(testing::Contains(HasSubstr("left camera"))));
+  pair.right.reset();
+  EXPECT_THAT(notes({mask}), testing::Not(testing::Contains(HasSubstr("left camera"))));
 }
 
 TEST(PreparedDataset, SaysWhatIsWrongWithAMask) {

@@ -10,6 +10,7 @@
 #include "tests/e2e/poster_sequence.h"
 #include "tests/io/scratch_folder.h"
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -85,6 +86,31 @@ TEST(KeyFrameImages, FindTheSensorThatTheMapWasMadeWith) {
   EXPECT_THAT(MessageOf([&] { KeyFrameImages(sequence, {.sensor = SensorKind::kStereo}, mono); }),
               HasSubstr("sequence: expected the camera that the map was made with, found another "
                         "one: "));
+}
+
+// The view angle of the run is found out for any lens and reduction, or named.
+TEST(KeyFrameImages, AreCutOutAsTheRunDid) {
+  const ScratchFolder folder;
+  const std::filesystem::path sequence = WritePosterSequence(folder, 3);
+  for (const SensorKind sensor : {SensorKind::kMono, SensorKind::kStereo}) {
+    for (const std::optional<int> width : {std::optional<int>(), std::optional<int>(300)}) {
+      const DatasetOptions of_run{.sensor = sensor, .max_width = width, .view_angle_deg = 50};
+      const auto dataset = OpenDataset(sequence, of_run);
+      const SavedMap saved = MapAt({MovingPoster::StampNs(1)}, dataset->calibration());
+      const KeyFrameImages images(sequence, {}, saved);
+      const KeyFrame& keyframe = *saved.map.Find(KeyFrameId{0});
+      EXPECT_EQ(images.Read(keyframe).width(), saved.camera.width);
+      EXPECT_EQ(images.Read(keyframe, ImageForm::kDelivered).width(), width.value_or(400));
+      EXPECT_EQ(images.DeliveredCamera().intrinsics().width, width.value_or(400));
+    }
+  }
+  const auto dataset = OpenDataset(sequence, {.view_angle_deg = 50});
+  const SavedMap saved = MapAt({MovingPoster::StampNs(1)}, dataset->calibration());
+  EXPECT_THAT(MessageOf([&] { KeyFrameImages(sequence, {.view_angle_deg = 40}, saved); }),
+              HasSubstr("found another one: view angles of 50 and 40 degrees"));
+  const SavedMap whole = MapAt({MovingPoster::StampNs(1)}, MovingPoster::MakeCalibration());
+  EXPECT_THAT(MessageOf([&] { KeyFrameImages(sequence, {.view_angle_deg = 40}, whole); }),
+              HasSubstr("cut out as by default, not with a view angle of 40 degrees"));
 }
 
 TEST(KeyFrameImages, NamesWhatDoesNotFit) {

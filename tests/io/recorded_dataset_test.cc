@@ -62,7 +62,10 @@ TEST(Recordings, TakeMasksByTopic) {
   EXPECT_EQ(dataset->Read(0)->left_mask->at(3, 3), 255);
   EXPECT_EQ(dataset->Read(1)->left_mask, nullptr);
   EXPECT_EQ(dataset->Read(2)->left_mask->at(3, 3), 0);
-  EXPECT_THAT(dataset->info().notes, Contains("2 of 3 images have a mask of /people/mask"));
+  EXPECT_THAT(
+      dataset->info().notes,
+      Contains(HasSubstr("2 of the 3 images of the data have a mask of /people/mask; they leave "
+                         "out 50 % of the image")));
   EXPECT_THAT(MessageOf([&] { OpenDataset(file, {.masks = {"/nobody"}}); }),
               HasSubstr("expected an image file or a topic as a mask, found '/nobody'; topics: "));
 }
@@ -84,6 +87,8 @@ TEST(Recordings, TakeMasksThatAreCompressedOrBroken) {
   EXPECT_EQ(dataset->Read(0)->left_mask->at(3, 3), 255);
   ASSERT_TRUE(dataset->Read(1)) << "a mask of another size costs no frame";
   EXPECT_EQ(dataset->Read(1)->left_mask, nullptr);
+  EXPECT_THAT(dataset->info().notes,
+              Contains(HasSubstr("; 1 cannot be used, and their images are used whole: ")));
 }
 
 TEST(Recordings, ReadsMcapOfAllDialects) {

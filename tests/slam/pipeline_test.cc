@@ -78,6 +78,26 @@ TEST(Pipeline, LiveTracksEveryFrameThatLeavesItTime) {
   EXPECT_EQ(live.status, expected);
 }
 
+TEST(Pipeline, SkipsFramesWhoseMaskIsBlack) {
+  System system(MovingPoster::MakeCalibration(), InMode(RunMode::kInline));
+  std::vector<std::string> reasons;
+  Pipeline pipeline(system, [&](const FrameRecord& record, const FrameView&) {
+    reasons.push_back(record.reason);
+  });
+  const MovingPoster poster;
+  for (int i = 0; i < 3; ++i) {
+    SensorFrame frame = poster.Frame(i);
+    GrayImage mask(frame.left.width(), frame.left.height(), 0);
+    if (i == 2) mask.at(7, 9) = 255;
+    if (i > 0) frame.left_mask = std::make_shared<const GrayImage>(mask);
+    pipeline.Feed(std::move(frame));
+  }
+  pipeline.Finish();
+  EXPECT_EQ(reasons[1], Pipeline::kBlackMask);
+  EXPECT_NE(reasons[0], Pipeline::kBlackMask);
+  EXPECT_NE(reasons[2], Pipeline::kBlackMask);
+}
+
 // A pipeline whose worker stands still from its first frame on until it is released.
 class LiveTest : public ::testing::Test {
  protected:

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/image/resample.h"
+#include "plumbline/io/datasets/image_dataset.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,13 +63,6 @@ GrayImage MaskOfCamera(const std::string& path, const Camera& camera) {
                                size.height,
                                mask.error().other_size->width,
                                mask.error().other_size->height));
-}
-
-// Returns the share of the pixels of a mask that are not used.
-double MaskedShare(const GrayImage& mask) {
-  const std::int64_t pixels = std::int64_t{mask.width()} * mask.height();
-  const auto black = std::count(mask.data(), mask.data() + pixels, std::uint8_t{0});
-  return static_cast<double>(black) / static_cast<double>(pixels);
 }
 
 class PreparedDataset : public Dataset {
@@ -160,6 +154,9 @@ FramePreparation::FramePreparation(const Calibration& calibration,
   }
   if (!options.masks.empty()) left_mask_ = ReadMaskOf(calibration.left, options.masks[0]);
   if (options.masks.size() > 1) right_mask_ = ReadMaskOf(*calibration.right, options.masks[1]);
+  if (options.masks.size() == 1 && calibration.right) {
+    mask_notes_.push_back("--mask is of the left camera; once more it is of the right one");
+  }
   calibration_ = Turned(calibration, turn);
   if (options.view_angle_deg) calibration_.view_angle_deg = options.view_angle_deg;
   if (reduced_ == turned_) return;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string_view>
@@ -77,13 +78,6 @@ class ImageDataset : public Dataset {
 
   std::vector<FrameFiles> files_;
 };
-
-// Returns the size of the images of a camera of a data set; nullopt if it is not known.
-std::optional<ImageSize> SizeOfCamera(const DatasetInfo& info, bool right) {
-  if (!info.has_calibration || (right && !info.calibration.right)) return std::nullopt;
-  const Camera& camera = right ? *info.calibration.right : info.calibration.left;
-  return ImageSize{camera.width(), camera.height()};
-}
 
 std::string_view DigitRun(std::string_view text) {
   const auto end = std::find_if_not(
@@ -172,16 +166,25 @@ std::string NameOf(const fs::path& path) {
   return (clean.has_filename() ? clean : clean.parent_path()).filename().string();
 }
 
-// Returns the folder of masks of this name of a data set, if there is one.
-std::optional<fs::path> MaskFolder(const fs::path& dataset, const char* name) {
+// Returns the folder of masks of this name of a data set, if there is one. Notes a file of this
+// name.
+std::optional<fs::path> MaskFolder(const std::string& name, DatasetInfo& info) {
   std::error_code error;
-  for (const fs::path& folder : {dataset / name, dataset / "mav0" / name}) {
-    if (fs::is_directory(folder, error)) return folder;
+  for (const fs::path& parent : {info.path, info.path / "mav0"}) {
+    if (fs::is_directory(parent / name, error)) return parent / name;
+    for (const fs::path& file : {parent / name, parent / (name + ".png")}) {
+      if (!fs::is_regular_file(file, error)) continue;
+      info.notes.push_back(
+          fmt::format("{} is not used: expected a folder with a mask for each image; --mask {} "
+                      "uses it for all images",
+                      file.string(),
+                      file.string()));
+    }
   }
   return std::nullopt;
 }
 
-// Finds the masks of the frames of one camera, and notes how many there are.
+// Finds the masks of the frames of one camera, and notes what they are.
 //
 // A file that cannot be used costs its mask, not the frame: a note says which one, and why.
 void FindMasks(const char* name,
@@ -189,20 +192,20 @@ void FindMasks(const char* name,
                const std::function<const fs::path*(const FrameFiles&)>& image_of,
                std::vector<FrameFiles>& files,
                DatasetInfo& info) {
-  const std::optional<fs::path> folder = MaskFolder(info.path, name);
+  if (files.empty() || image_of(files.front()) == nullptr) return;
+  const std::optional<fs::path> folder = MaskFolder(name, info);
   if (!folder) return;
   const std::optional<ImageSize> wanted = SizeOfCamera(info, mask == &FrameFiles::right_mask);
-  std::size_t found = 0, bad = 0;
+  std::size_t bad = 0;
+  std::vector<fs::path> found;
   std::string first_fault;
   for (FrameFiles& frame : files) {
-    const fs::path* image = image_of(frame);
-    if (image == nullptr) return;
-    const fs::path file = *folder / (image->stem().string() + ".png");
+    const fs::path file = *folder / (image_of(frame)->stem().string() + ".png");
     if (!PathExists(file)) continue;
     const Expected<ImageSize, ImageFailure> size = ReadImageSize(file);
     if (size && (!wanted || *size == *wanted)) {
       frame.*mask = file;
-      ++found;
+      found.push_back(file);
     } else if (bad++ == 0) {
       first_fault = size ? fmt::format("expected a mask of {}x{} pixels as the images, found {}x{}",
                                        wanted->width,
@@ -218,11 +221,57 @@ void FindMasks(const char* name,
                                      first_fault,
                                      bad == 1 ? "this mask" : fmt::format("{} masks", bad)));
   }
-  info.notes.push_back(
-      fmt::format("{} of {} images have a mask in {}", found, files.size(), folder->string()));
+  NoteMasks(
+      {found.size(), files.size(), "in " + folder->string()},
+      [&](std::size_t i) { return ReadMask(found[i], wanted); },
+      info);
 }
 
 }  // namespace
+
+std::optional<ImageSize> SizeOfCamera(const DatasetInfo& info, bool right) {
+  if (!info.has_calibration || (right && !info.calibration.right)) return std::nullopt;
+  return SizeOf(right ? *info.calibration.right : info.calibration.left);
+}
+
+double MaskedShare(const GrayImage& mask) {
+  const std::int64_t pixels = std::int64_t{mask.width()} * mask.height();
+  const auto black = std::count(mask.data(), mask.data() + pixels, std::uint8_t{0});
+  return static_cast<double>(black) / static_cast<double>(pixels);
+}
+
+void NoteMasks(const FoundMasks& masks,
+               const std::function<Expected<GrayImage, ImageFailure>(std::size_t)>& read,
+               DatasetInfo& info) {
+  constexpr std::size_t kMost = 20;
+  const std::size_t looked = std::min(kMost, masks.masks);
+  std::size_t bad = 0;
+  double share = 0;
+  std::string first_fault;
+  for (std::size_t i = 0; i < looked; ++i) {
+    const auto mask = read(i * masks.masks / looked);
+    if (mask) {
+      share += MaskedShare(*mask);
+    } else if (bad++ == 0) {
+      first_fault = fmt::format("{}: {}", mask.error().path.string(), mask.error().why);
+    }
+  }
+  std::string note = fmt::format(
+      "{} of the {} images of the data have a mask {}", masks.masks, masks.images, masks.place);
+  const std::string of = looked == masks.masks ? "" : fmt::format(" (in {} of them)", looked);
+  if (looked > bad) {
+    share /= static_cast<double>(looked - bad);
+    note += fmt::format("; they leave out {:.3g} % of the image{}{}",
+                        100 * share,
+                        of,
+                        share > 0.5 ? "; are they inverted? What is black is not used" : "");
+  }
+  if (bad > 0) {
+    note += fmt::format(
+        "; {} cannot be used{}, and their images are used whole: {}", bad, of, first_fault);
+  }
+  info.notes.push_back(std::move(note));
+}
 
 bool PathExists(const fs::path& path) {
   std::error_code error;

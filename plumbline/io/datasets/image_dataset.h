@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,6 +49,25 @@ struct FrameFiles {
 // Throws InputError if there are no frames, or if no left, no right or no depth image exists or can
 // be read at all, or as CheckFirstFrame.
 std::unique_ptr<Dataset> MakeImageDataset(DatasetInfo info, std::vector<FrameFiles> files);
+
+// Returns the size of the images of a camera of a data set; nullopt if it is not known.
+std::optional<ImageSize> SizeOfCamera(const DatasetInfo& info, bool right);
+
+// Returns the share of the pixels of a mask that are black, which are not used.
+double MaskedShare(const GrayImage& mask);
+
+// The masks of the images of a camera: how many there are, of how many images, and where, "in
+// data/mask0".
+struct FoundMasks {
+  std::size_t masks = 0, images = 0;
+  std::string place;
+};
+
+// Notes how many images have a mask, and of some of them, evenly spread, what share of the image
+// they leave out and which cannot be used; `read` gives mask i < masks. Cost: decoding these.
+void NoteMasks(const FoundMasks& masks,
+               const std::function<Expected<GrayImage, ImageFailure>(std::size_t)>& read,
+               DatasetInfo& info);
 
 // Returns the failure of one image; if its size differs from `wanted`, that of the calibration, the
 // reason tells both.

@@ -41,6 +41,34 @@ struct FrameMessages {
   std::optional<StoredMessage> left_mask = std::nullopt, right_mask = std::nullopt;
 };
 
+// Calls `decode` with the image in a message of a file.
+template <class Image, class Decode>
+Expected<Image, ImageFailure> ReadMessage(const Recording& file,
+                                          const StoredMessage& place,
+                                          const Decode& decode) {
+  const Channel& channel = file.channels()[place.channel];
+  const auto bytes = file.Message(place);
+  if (!bytes) return ImageFailure{file.path(), Printable(channel.topic) + ": " + bytes.error()};
+  const auto message = ParseImage(*FormOf(channel), *bytes);
+  if (!message) {
+    return ImageFailure{file.path(), Printable(channel.topic) + ": the file has changed"};
+  }
+  Expected<Image, ImageFailure> image = decode(*message);
+  if (image) return image;
+  ImageFailure failure = image.error();
+  if (failure.other_size) failure.path += ": " + Printable(channel.topic);
+  failure.why = Printable(channel.topic) + ": " + failure.why;
+  return failure;
+}
+
+Expected<GrayImage, ImageFailure> ReadMaskMessage(const Recording& file,
+                                                  const StoredMessage& place,
+                                                  std::optional<ImageSize> size) {
+  return ReadMessage<GrayImage>(file, place, [&](const ImageMessage& message) {
+    return MaskOfMessage(file.path(), message, size);
+  });
+}
+
 class RecordedDataset : public Dataset {
  public:
   RecordedDataset(DatasetInfo info,
@@ -75,10 +103,11 @@ class RecordedDataset : public Dataset {
 
   Expected<ColorImage, ImageFailure> ReadColor(std::size_t i) const override {
     const ImageSize size = SizeOf(calibration().left);
-    auto image = ReadImage<ColorImage>(frames_.at(i).left, [&](const ImageMessage& message) {
-      if (message.compressed) return DecodeColorImage(info().path, message.data, Wanted(size));
-      return ColorOfPixels(info().path, PixelsOf(message), Wanted(size), bits_);
-    });
+    auto image =
+        ReadMessage<ColorImage>(*file_, frames_.at(i).left, [&](const ImageMessage& message) {
+          if (message.compressed) return DecodeColorImage(info().path, message.data, Wanted(size));
+          return ColorOfPixels(info().path, PixelsOf(message), Wanted(size), bits_);
+        });
     if (!image) return FailureOf(image.error(), size);
     return image;
   }
@@ -90,26 +119,8 @@ class RecordedDataset : public Dataset {
     return info().has_calibration ? std::optional(size) : std::nullopt;
   }
 
-  // Calls `decode` with the message's image.
-  template <class Image, class Decode>
-  Expected<Image, ImageFailure> ReadImage(const StoredMessage& place, const Decode& decode) const {
-    const Channel& channel = file_->channels()[place.channel];
-    const auto bytes = file_->Message(place);
-    if (!bytes) return ImageFailure{info().path, Printable(channel.topic) + ": " + bytes.error()};
-    const auto message = ParseImage(*FormOf(channel), *bytes);
-    if (!message) {
-      return ImageFailure{info().path, Printable(channel.topic) + ": the file has changed"};
-    }
-    Expected<Image, ImageFailure> image = decode(*message);
-    if (image) return image;
-    ImageFailure failure = image.error();
-    if (failure.other_size) failure.path += ": " + Printable(channel.topic);
-    failure.why = Printable(channel.topic) + ": " + failure.why;
-    return failure;
-  }
-
   Expected<GrayImage, ImageFailure> Gray(const StoredMessage& place, ImageSize size) const {
-    return ReadImage<GrayImage>(place, [&](const ImageMessage& image) {
+    return ReadMessage<GrayImage>(*file_, place, [&](const ImageMessage& image) {
       return GrayOfMessage(info().path, image, Wanted(size), bits_);
     });
   }
@@ -119,16 +130,13 @@ class RecordedDataset : public Dataset {
   std::shared_ptr<const GrayImage> Mask(const std::optional<StoredMessage>& place,
                                         const GrayImage& image) const {
     if (!place) return nullptr;
-    const ImageSize size{image.width(), image.height()};
-    auto mask = ReadImage<GrayImage>(*place, [&](const ImageMessage& message) {
-      return MaskOfMessage(info().path, message, size);
-    });
+    auto mask = ReadMaskMessage(*file_, *place, ImageSize{image.width(), image.height()});
     return mask ? std::make_shared<const GrayImage>(*std::move(mask)) : nullptr;
   }
 
   Expected<DepthImage, ImageFailure> Depth(const StoredMessage& place, ImageSize size) const {
     const double factor = calibration().depth_factor.value_or(1);
-    return ReadImage<DepthImage>(place, [&](const ImageMessage& image) {
+    return ReadMessage<DepthImage>(*file_, place, [&](const ImageMessage& image) {
       return DepthOfMessage(info().path, image, factor, Wanted(size));
     });
   }
@@ -225,18 +233,25 @@ void LeaveOutMasks(const DatasetOptions& options, RecordedTopics& topics) {
   std::erase_if(topics.images, is_mask);
 }
 
-// Gives frames the masks of their moment, and notes how many have one.
-void AddMasks(const std::vector<std::optional<RecordedTopic>>& masks,
+// Gives frames the masks of their moment, and notes what they are.
+void AddMasks(const Recording& file,
+              const std::vector<std::optional<RecordedTopic>>& masks,
               std::vector<FrameMessages>& frames,
               DatasetInfo& info) {
   for (std::size_t camera = 0; camera < masks.size(); ++camera) {
     if (!masks[camera]) continue;
-    const auto pairs = PairByStamp(info.stamps_ns, StampsOf(*masks[camera]), kMaxPairDelayNs);
-    for (const auto& [i, k] : pairs) {
-      (camera == 0 ? frames[i].left_mask : frames[i].right_mask) = masks[camera]->images[k].place;
+    std::vector<StoredMessage> places;
+    for (const auto& [i, k] :
+         PairByStamp(info.stamps_ns, StampsOf(*masks[camera]), kMaxPairDelayNs)) {
+      places.push_back(masks[camera]->images[k].place);
+      (camera == 0 ? frames[i].left_mask : frames[i].right_mask) = places.back();
     }
-    info.notes.push_back(fmt::format(
-        "{} of {} images have a mask of {}", pairs.size(), frames.size(), masks[camera]->name));
+    NoteMasks(
+        {places.size(), frames.size(), "of " + Printable(masks[camera]->name)},
+        [&](std::size_t i) {
+          return ReadMaskMessage(file, places[i], SizeOfCamera(info, camera == 1));
+        },
+        info);
   }
 }
 
@@ -417,7 +432,7 @@ std::unique_ptr<Dataset> OpenRecording(const fs::path& path,
     if (info.sensor == SensorKind::kRgbd) NoteFrames(*chosen.left, *chosen.depth, info);
   }
   NoteTopics(topics, used, info);
-  AddMasks(masks, frames, info);
+  AddMasks(*topics.file, masks, frames, info);
   NoteRate(info);
   const std::optional<int> bits = BitsOf(*topics.file, frames, info);
   auto dataset = std::make_unique<RecordedDataset>(

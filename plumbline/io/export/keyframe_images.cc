@@ -16,6 +16,7 @@
 #include "plumbline/io/trajectory_io.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -49,6 +50,17 @@ bool HasOtherSize(const Dataset& dataset) {
   const RectifiedCamera camera = Rectifier(dataset.calibration()).camera();
   const Camera& left = dataset.calibration().left;
   return camera.width != left.width() || camera.height != left.height();
+}
+
+// Returns the width of reduced images whose lens has this focal length in its middle; nullopt if
+// they would not be smaller.
+std::optional<int> WidthOfFocal(const Dataset& dataset, double focal) {
+  const Calibration& calibration = dataset.calibration();
+  double of_lens = calibration.left.CentreFocal();
+  if (calibration.right) of_lens = 0.5 * (of_lens + calibration.right->CentreFocal());
+  const long width = std::lround(calibration.left.width() * focal / of_lens);
+  if (width < 1 || width >= calibration.left.width()) return std::nullopt;
+  return static_cast<int>(width);
 }
 
 // The images get the size of the map's camera: the run reduced larger ones. Rotated images are
@@ -130,53 +142,78 @@ std::map<KeyFrameId, std::string> KeyFrameImageNames(const Map& map) {
   return names;
 }
 
+// Opens data for each of their sensors, reduced as the run may have done, until the camera is that
+// of the map. Returns the difference for the first sensor, if none is.
+std::optional<std::string> KeyFrameImages::Open(const std::filesystem::path& path,
+                                                const DatasetOptions& given,
+                                                const SavedMap& saved) {
+  DatasetOptions options = AsUsedFor(saved, given);
+  const std::optional<std::string> difference = OpenAs(path, options, saved);
+  if (!difference) return std::nullopt;
+  std::vector<SensorKind> sensors = dataset_->info().available;
+  if (options.sensor) sensors = {*options.sensor};
+  for (const SensorKind sensor : sensors) {
+    options = AsUsedFor(saved, given);
+    options.sensor = sensor;
+    if (!OpenAs(path, options, saved)) return std::nullopt;
+    if (given.max_width) continue;
+    // The map's camera may have another width than the images: these are reduced as by default, or
+    // until the middle of the lens has the focal length of the map.
+    options.max_width.reset();
+    if (!OpenAs(path, options, saved)) return std::nullopt;
+    options.max_width = WidthOfFocal(*dataset_, saved.camera.fx);
+    if (options.max_width && !OpenAs(path, options, saved)) return std::nullopt;
+  }
+  return difference;
+}
+
+// The same for one sensor and width, with the view angle of the map unless one is given.
+std::optional<std::string> KeyFrameImages::OpenAs(const std::filesystem::path& path,
+                                                  DatasetOptions options,
+                                                  const SavedMap& saved) {
+  const auto open = [&] {
+    dataset_ = OpenDataset(path, options);
+    rectifier_ = std::make_unique<Rectifier>(dataset_->calibration());
+    return LeftCameraDifference(*rectifier_, saved);
+  };
+  std::optional<std::string> difference = open();
+  if (!difference || options.view_angle_deg) return difference;
+  options.view_angle_deg = ViewAngleOfMap(saved.camera, dataset_->calibration());
+  return options.view_angle_deg ? open() : difference;
+}
+
 KeyFrameImages::KeyFrameImages(const std::filesystem::path& path,
                                const DatasetOptions& given,
                                const SavedMap& saved)
     : octave_scale_(saved.octave_scale) {
-  DatasetOptions options = AsUsedFor(saved, given);
-  dataset_ = OpenDataset(path, options);
-  if (!given.max_width && HasOtherSize(*dataset_)) {
-    // The width of the map's camera is not that of the images, which are reduced as by default.
-    options.max_width.reset();
-    dataset_ = OpenDataset(path, options);
+  if (const auto difference = Open(path, given, saved)) {
+    FailCamera(path, DifferenceAsStored(path, *difference, given, saved));
   }
-  std::vector<SensorKind> sensors = dataset_->info().available;
-  if (options.sensor) sensors = {*options.sensor};
-  std::optional<std::string> difference;  // difference for the first sensor
-  for (const SensorKind sensor : sensors) {
-    DatasetOptions as_sensor = options;
-    as_sensor.sensor = sensor;
-    if (sensor != dataset_->sensor()) dataset_ = OpenDataset(path, as_sensor);
-    rectifier_ = std::make_unique<Rectifier>(dataset_->calibration());
-    auto difference_now = LeftCameraDifference(*rectifier_, saved);
-    if (difference_now && !given.view_angle_deg) {
-      as_sensor.view_angle_deg = ViewAngleOfMap(saved.camera, dataset_->calibration());
-      if (as_sensor.view_angle_deg) {
-        dataset_ = OpenDataset(path, as_sensor);
-        rectifier_ = std::make_unique<Rectifier>(dataset_->calibration());
-        difference_now = LeftCameraDifference(*rectifier_, saved);
-      }
-    }
-    if (!difference_now) {
-      difference.reset();
-      break;
-    }
-    if (!difference) difference = difference_now;
-  }
-  if (difference) FailCamera(path, DifferenceAsStored(*difference, given, saved));
   CheckKeyFrames(saved);
 }
 
-// The difference of the images before their reduction to the width of the map's, if sizes differ:
-// users do not know the reduced size.
-std::string KeyFrameImages::DifferenceAsStored(const std::string& difference,
+// The difference in words of users: the view angle, if that alone differs, or the sizes of the
+// images before their reduction to the width of the map's, which they do not know.
+std::string KeyFrameImages::DifferenceAsStored(const std::filesystem::path& path,
+                                               const std::string& difference,
                                                const DatasetOptions& given,
                                                const SavedMap& saved) {
-  if (rectifier_->camera().height == saved.camera.height) return difference;
-  DatasetOptions options = AsUsedFor(saved, given);
+  DatasetOptions options = given;
+  options.view_angle_deg.reset();
+  if (given.view_angle_deg && !Open(path, options, saved)) {
+    const std::optional<double>& of_map = dataset_->calibration().view_angle_deg;
+    return of_map
+               ? fmt::format("view angles of {:g} and {:g} degrees", *of_map, *given.view_angle_deg)
+               : fmt::format("cut out as by default, not with a view angle of {:g} degrees",
+                             *given.view_angle_deg);
+  }
+  options = AsUsedFor(saved, given);
+  dataset_ = OpenDataset(path, options);
+  const bool same_height =
+      Rectifier(dataset_->calibration()).camera().height == saved.camera.height;
+  if (same_height || HasOtherSize(*dataset_)) return difference;
   options.max_width = given.max_width.value_or(std::numeric_limits<int>::max());
-  dataset_ = OpenDataset(dataset_->info().path, options);
+  dataset_ = OpenDataset(path, options);
   const Camera& camera = dataset_->calibration().left;
   const bool upright = saved.camera.height > saved.camera.width;
   return fmt::format("images of {}x{} and {}x{} pixels{}",

@@ -45,10 +45,10 @@ std::map<KeyFrameId, std::string> KeyFrameImageNames(const Map& map);
 class KeyFrameImages {
  public:
   // Opens the data. `options` without a sensor: the sensor whose images fit the map; without a
-  // maximum width: that of the map's camera, so that images are reduced as in the run; without a
-  // view angle: that of the map (ViewAngleOfMap). Throws
-  // InputError if the data's camera is not that of the map, or the data has no frame at the time of
-  // a keyframe.
+  // maximum width: that of the map's camera, or the one that gives the map's focal length, so that
+  // images are reduced as in the run; without a view angle: that of the map (ViewAngleOfMap).
+  // Throws InputError if the data's camera is not that of the map, or the data has no frame at the
+  // time of a keyframe.
   KeyFrameImages(const std::filesystem::path& path,
                  const DatasetOptions& options,
                  const SavedMap& saved);
@@ -72,7 +72,14 @@ class KeyFrameImages {
   const std::filesystem::path& path() const { return dataset_->info().path; }
 
  private:
-  std::string DifferenceAsStored(const std::string& difference,
+  std::optional<std::string> Open(const std::filesystem::path& path,
+                                  const DatasetOptions& given,
+                                  const SavedMap& saved);
+  std::optional<std::string> OpenAs(const std::filesystem::path& path,
+                                    DatasetOptions options,
+                                    const SavedMap& saved);
+  std::string DifferenceAsStored(const std::filesystem::path& path,
+                                 const std::string& difference,
                                  const DatasetOptions& given,
                                  const SavedMap& saved);
   void CheckKeyFrames(const SavedMap& saved) const;
