@@ -53,7 +53,7 @@ std::optional<InertialRecording> FindUsable(const InertialRequest& request,
     if (!recording && request.required) {
       throw InputError(source + ": expected samples of an inertial sensor, found none");
     }
-    if (!recording) {
+    if (!recording && request.asked) {
       input.notes.push_back("--imu auto: the data have no samples of an inertial sensor");
     }
     return recording;
@@ -91,10 +91,11 @@ void UseIfSound(InertialRecording recording, InertialInput& input) {
 }  // namespace
 
 InertialRequest ReadInertialRequest(const CommandLine& line) {
-  const std::string imu = line.Value("--imu").value_or("off");
+  const std::string imu = line.Value("--imu").value_or(line.Has("--preset") ? "off" : "auto");
   const bool is_file = imu != "off" && imu != "auto";
   return {imu != "off",
           is_file,
+          line.Has("--imu"),
           is_file ? std::optional(imu) : std::nullopt,
           line.Value("--camera"),
           line.Values("--topic"),

@@ -24,13 +24,15 @@ namespace plumbline {
 struct InertialRequest {
   bool used = false;
   bool required = false;  // one that cannot be used is an InputError
+  bool asked = true;      // a note tells that there is none
   std::optional<std::string> file = std::nullopt;
   std::optional<std::string> camera = std::nullopt;
   std::vector<std::string> topics = {};
   Rotation rotation = Rotation::kAuto;
 };
 
-// Reads the request from --imu, --camera, --topic and --rotate.
+// Reads the request from --imu, --camera, --topic and --rotate. Without --imu the sensor that comes
+// with the data is used, but by the systems of the papers (--preset).
 InertialRequest ReadInertialRequest(const CommandLine& line);
 
 // The inertial sensor of a run, as --imu chooses it.

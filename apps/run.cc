@@ -71,7 +71,7 @@ CommandSyntax RunSyntax() {
        {"--side-by-side", "", "live: each image is a left and a right half"},
        {"--camera", "FILE", "camera file, or the name of a built-in camera"},
        {"--preset", "NAME", "the system of a paper: rippl, good-line-cutting"},
-       {"--imu", "FILE|off|auto", "use a gyroscope, calibrated by FILE or with the data (off)"},
+       {"--imu", "FILE|off|auto", "gyroscope, calibrated by FILE or with the data (auto)"},
        {"--ground-truth", "FILE|none", "poses to compare with (default: those with the data)"},
        {"--rotate", "auto|none|90|180|270", kRotateHelp},
        {"--max-width", "PIXELS", kMaxWidthHelp},

@@ -34,14 +34,19 @@ struct RunInertial {
   InertialFeed feed;
 };
 
-// imu: "off", "auto", a file, or samples.
+// imu: "off", "auto", a file, or samples; None: as auto, but silent where the data have none.
 std::unique_ptr<RunInertial> OpenRunInertial(const Dataset& dataset,
                                              const py::object& imu,
                                              const std::optional<std::string>& camera,
                                              const std::vector<std::string>& topics,
                                              const std::string& rotate) {
-  InertialRequest request{true, true, std::nullopt, camera, topics};
+  InertialRequest request{true, true, true, std::nullopt, camera, topics};
   request.rotation = ParseChoice<Rotation>("rotate", rotate);
+  if (imu.is_none()) {
+    request.required = request.asked = false;
+    const py::gil_scoped_release release;
+    return std::make_unique<RunInertial>(OpenInertial(request, dataset));
+  }
   const bool is_path = py::isinstance<py::str>(imu) || py::hasattr(imu, "__fspath__");
   if (!is_path) {
     std::vector<InertialSample> samples = ReadInertialSamples(imu);

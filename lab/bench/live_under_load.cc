@@ -259,6 +259,8 @@ Figures Run(const Setup& setup, const std::string& sequence, std::optional<int> 
                                     (setup.data / sequence).string(),
                                     "--mode",
                                     "live",
+                                    "--imu",
+                                    "off",
                                     "--quiet",
                                     "--out",
                                     (folder.path() / "run").string()};

@@ -497,6 +497,45 @@ Experiment VersionsExperiment(bool mono) {
   return experiment;
 }
 
+// The gyroscope that comes with a sequence used or not, by sensor: as it should be, with what goes
+// wrong in inertial sensors, and where few images or fast turns make it hard to find the next pose.
+Experiment GyroscopeExperiment() {
+  Experiment experiment;
+  experiment.name = "gyroscope";
+  experiment.help = "the gyroscope that comes with a sequence used (auto) or not (off), by sensor";
+  const std::vector<Setting> faults = {{"plain", {}},
+                                       {"gap50", {"imu.gap_ms=50"}},
+                                       {"gap500", {"imu.gap_ms=500"}},
+                                       {"lost", {"imu.lost=0.02"}},
+                                       {"jitter", {"imu.jitter_ms=2"}},
+                                       {"range", {"imu.rate_range=1.5"}},
+                                       {"hz50", {"imu_rate_hz=50"}},
+                                       {"hz1000", {"imu_rate_hz=1000"}}};
+  const std::vector<std::string> imperfect = {"imu.bias=1", "imu.average=true", "imu.margin_s=0.2"};
+  const auto add = [&](const char* world, const Setting& setting, std::vector<std::string> more) {
+    std::vector<std::string> settings = imperfect;
+    settings.insert(settings.end(), setting.settings.begin(), setting.settings.end());
+    experiment.sequences.push_back({world, settings, setting.name, std::move(more)});
+  };
+  for (const Setting& fault : faults) add("worlds/vicon_difficult", fault, {});
+  const std::vector<std::string> third = {"--stride", "3"};
+  add("worlds/vicon_difficult", {"slow", {"rate_hz=6.666667", "shutter_ms=20"}}, third);
+  add("worlds/rotation", {"fast", {"speed=3", "shutter_ms=20"}}, third);
+  experiment.sequences.push_back({"euroc/*"});
+  for (const std::string sensor : {"stereo", "mono"}) {
+    for (const std::string imu : {"off", "auto"}) {
+      Variant variant{sensor + "_" + imu, {}, {"--sensor", sensor, "--imu", imu}};
+      if (imu == "auto") variant.reference = sensor + "_off";
+      experiment.variants.push_back(std::move(variant));
+    }
+  }
+  experiment.metrics = {"ate", "ate_causal", "roe_rmse", "tracked", "lost", "maps", "cpu_ms"};
+  experiment.plots = {"ate_causal", "lost"};
+  experiment.reference = "stereo_off";
+  experiment.ratios = {"ate", "ate_causal", "cpu_ms"};
+  return experiment;
+}
+
 // Experiments of our own, beside those of the papers.
 std::vector<Experiment> OwnExperiments() {
   return {
@@ -525,6 +564,7 @@ std::vector<Experiment> OwnExperiments() {
       VersionsExperiment(true),
       RobustnessExperiment(),
       MonocularRobustnessExperiment(),
+      GyroscopeExperiment(),
       StartExperiment(
           "initialization",
           "how often, how soon and how well a monocular map begins, by several methods",

@@ -109,6 +109,10 @@ Job MakeJob(const ExperimentSequence& sequence,
   const std::filesystem::path& path = variant.reversed ? job.reversed : sequence.path;
   job.command = {name, path.string(), "--out", job.folder.string(), "--quiet"};
   job.command.insert(job.command.end(), arguments.begin(), arguments.end());
+  const bool is_new = experiment.command == RunCommandKind::kRun && !variant.by_earlier;
+  if (is_new && std::find(arguments.begin(), arguments.end(), "--imu") == arguments.end()) {
+    job.command.insert(job.command.end(), {"--imu", "off"});  // no experiment but its own asks
+  }
   if (variant.reversed && sequence.has_truth) {
     job.command.insert(job.command.end(), {"--ground-truth", (path / kReversedTruth).string()});
   }

@@ -224,7 +224,7 @@ class FrameResult:
 
 
 class _RunInertial:
-    def __init__(self, dataset: Dataset, imu: str | PathLike[str] | ArrayLike,
+    def __init__(self, dataset: Dataset, imu: str | PathLike[str] | ArrayLike | None,
                  camera: str | None, topics: Sequence[str], rotate: str) -> None: ...
     @property
     def notes(self) -> list[str]: ...

@@ -163,7 +163,7 @@ def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None =
         view_angle: float | None = None, mask: Path | Sequence[Path] | None = None, start: int = 0,
         stop: int | None = None, stride: int = 1, map: Path | Atlas | None = None,
         localize: bool = False, out: Path | None = None, seed: int | None = None,
-        mode: str | None = None, imu: Path | ArrayLike = "off",
+        mode: str | None = None, imu: Path | ArrayLike | None = None,
         on_frame: Callable[[FrameResult], object] | None = None,
         on_event: Callable[[dict[str, Any]], object] | None = None, **options: Any) -> Run:
     """Tracks the camera through a recorded sequence and maps what it sees, as `plumbline run`; the
@@ -174,7 +174,7 @@ def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None =
     open(), or path is a Dataset. start, stop, stride: which frames. map: a file or an Atlas to go on in; localize: only
     find the camera in it. out: a folder for the files of the run. seed: of the random numbers; mode:
     "inline", "lockstep" or "live" (slam.seed and slam.mode). imu: "off", "auto" (the gyroscope of the
-    data), a file that tells of the sensor, or samples (N, 7), stamp in nanoseconds, rates in rad/s,
+    data; the default without preset), a file that tells of the sensor, or samples (N, 7), stamp in nanoseconds, rates in rad/s,
     forces in m/s^2, of a sensor that the camera file tells of; what is wrong is a UserWarning. on_frame: called with the FrameResult of each frame, in order;
     on_event: with a dictionary for each loop, join of maps and relocalization, as soon as it is
     known (System.new_events); both in this thread. options: groups as dictionaries,
@@ -202,6 +202,7 @@ def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None =
     if localize and map is None:
         raise InputError("localize: expected map as well")
     frames = _choose_frames(dataset, start, stop, stride)
+    imu = "off" if imu is None and preset is not None else imu
     inertial = _plumbline._RunInertial(dataset, imu, camera, tuple(topics), rotate)
     for note in inertial.notes:
         warnings.warn(note, stacklevel=2)

@@ -22,7 +22,7 @@ inline nlohmann::json Summary(const Gate& gate,
   const ScratchFolder folder;
   const Outcome outcome = RunProgram(folder,
                                      "run " + Quoted(data) + " " + gate.settings + " --mode " +
-                                         mode + " --quiet --out " + Quoted(folder / "run"));
+                                         mode + " --imu off --quiet --out " + Quoted(folder / "run"));
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   if (outcome.code != 0) return nullptr;
   ExpectLandmarksFit(folder / "run/map.plb");

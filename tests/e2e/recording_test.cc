@@ -65,7 +65,7 @@ TEST(RunRecording, GivesTheBytesOfTheFolder) {
   split.reset();
   PackFile(folder / "MH_01_db3/MH_01_1.db3");
   folder.Write("MH_01_db3/metadata.yaml", Rosbag2Metadata({"MH_01_0.db3", "MH_01_1.db3.zstd"}));
-  const std::string camera = " --camera euroc --out ";
+  const std::string camera = " --camera euroc --imu off --out ";
   const Outcome whole =
       RunProgram(folder,
                  "run " + Quoted(*data) + " --from " + std::to_string(kFrames.first) + " --to " +

@@ -335,10 +335,11 @@ TEST(ToleratedInput, AnInertialSensorThatIsNotUsedIsTold) {
   const ScratchFolder folder;
   const fs::path sequence = WritePosterSequence(folder, 12);
   const auto run = [&](const std::string& imu) {
-    return RunProgram(
-        folder, "run " + Quoted(sequence) + " --imu " + imu + " --out " + Quoted(folder / "out"));
+    return RunProgram(folder,
+                      "run " + Quoted(sequence) + " " + imu + " --out " + Quoted(folder / "out"));
   };
-  const Outcome without = run("auto");
+  EXPECT_THAT(run("").err, testing::Not(HasSubstr("inertial")));
+  const Outcome without = run("--imu auto");
   EXPECT_EQ(without.code, 0) << without.err;
   EXPECT_THAT(without.err, HasSubstr("--imu auto: the data have no samples"));
   // Samples of another day.
@@ -346,7 +347,9 @@ TEST(ToleratedInput, AnInertialSensorThatIsNotUsedIsTold) {
                "1,0,0,0,0,0,9.81\n5000001,0,0,0.01,0,0,9.81\n10000001,0,0,0,0,0,9.81\n");
   const fs::path imu = folder.Write(
       "imu.yaml", "imu:\n  imu_from_left: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n");
-  const Outcome elsewhere = run(Quoted(imu));
+  EXPECT_THAT(run("").err, HasSubstr("the inertial sensor is left out: "));
+  EXPECT_THAT(run("--preset good-line-cutting").err, testing::Not(HasSubstr("inertial")));
+  const Outcome elsewhere = run("--imu " + Quoted(imu));
   EXPECT_EQ(elsewhere.code, 0) << elsewhere.err;
   EXPECT_THAT(elsewhere.err, HasSubstr("not used, as no turn between frames was covered"));
 }

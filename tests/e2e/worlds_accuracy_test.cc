@@ -46,7 +46,7 @@ void Check(const WorldGate& gate) {
     const Outcome outcome = RunProgram(folder, command);
     ASSERT_EQ(outcome.code, 0) << command << "\n" << outcome.err;
   };
-  expect_done("run " + Quoted(world) + " " + gate.settings + " --quiet --out " + run);
+  expect_done("run " + Quoted(world) + " " + gate.settings + " --imu off --quiet --out " + run);
   const auto summary = nlohmann::json::parse(Contents(folder / "run/summary.json"));
   EXPECT_EQ(summary["frames"]["tracked"], gate.frames);
   EXPECT_EQ(summary["maps"], 1);

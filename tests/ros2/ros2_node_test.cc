@@ -176,7 +176,7 @@ TEST_F(Ros2NodeTest, LockstepGivesTheTrajectoryOfTheFolder) {
   const ScratchFolder folder;
   const std::string out = (folder / "run").string();
   const Outcome run = RunProgram(folder,
-                                 "run " + Quoted(*sequence_) + " --camera euroc --to " +
+                                 "run " + Quoted(*sequence_) + " --camera euroc --imu off --to " +
                                      std::to_string(kFrames) + " --quiet --out " + Quoted(out));
   ASSERT_EQ(run.code, 0) << run.err;
 
@@ -253,7 +253,7 @@ TEST_F(Ros2NodeTest, UsesTheGyroscopeAsARunDoes) {
   constexpr std::size_t kFrames = 15;
   const ScratchFolder folder;
   const auto causal = [&](const std::string& arguments) {
-    const std::string out = (folder / (arguments.empty() ? "without" : "with")).string();
+    const std::string out = (folder / (arguments == " --imu off" ? "without" : "with")).string();
     const Outcome run =
         RunProgram(folder,
                    "run " + Quoted(*sequence_) + " --camera euroc --quiet --to " +
@@ -261,7 +261,7 @@ TEST_F(Ros2NodeTest, UsesTheGyroscopeAsARunDoes) {
     EXPECT_EQ(run.code, 0) << run.err;
     return Contents(std::filesystem::path(out) / "trajectory_causal.txt");
   };
-  const std::string without = causal(""), with = causal(" --imu auto");
+  const std::string without = causal(" --imu off"), with = causal(" --imu auto");
   ASSERT_NE(with, without);
 
   auto recording = FindInertial(*sequence_, DatasetFormat::kEuroc, {});
@@ -367,7 +367,7 @@ void CompareLatencies(const std::filesystem::path& sequence,
   for (int i = 0; i < pairs; ++i) {
     const ScratchFolder folder;
     const Outcome run = RunProgram(folder,
-                                   "run " + Quoted(sequence) + " --camera euroc --to " +
+                                   "run " + Quoted(sequence) + " --camera euroc --imu off --to " +
                                        std::to_string(frames.size()) +
                                        " --mode live --quiet --out " + Quoted(folder / "run"));
     ASSERT_EQ(run.code, 0) << run.err;
