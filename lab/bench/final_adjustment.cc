@@ -1,39 +1,71 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Time of the adjustment that ends a run, on maps that runs wrote: final_adjustment MAP.plb...
+// What the end of a run takes, by step, on maps that runs left unadjusted
+// (--set mapping.final_adjustment_keyframes=0): final_adjustment MAP.plb...
+// Prints seconds of each step, and the largest memory so far; writes the adjusted keyframes
+// into MAP.txt, beside each map, for `plumbline evaluate`.
 #include "lab/bench/run_bench.h"
 #include "plumbline/base/error.h"
 #include "plumbline/io/map_file/map_io.h"
-#include "plumbline/mapping/whole_map_adjustment.h"
+#include "plumbline/mapping/local_mapper.h"
 
-#include <chrono>
+#include <filesystem>
+#include <fstream>
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 namespace {
 
-using plumbline::CameraAndPyramid;
-using plumbline::LineSettings;
-using plumbline::MappingOptions;
+using plumbline::LocalMapper;
+using plumbline::Map;
+using plumbline::MappingStep;
 
-void Measure(const char* path) {
-  const plumbline::SavedMap saved = plumbline::LoadMap(path);
-  CameraAndPyramid imaging;
+double PeakMegabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+// Writes the poses of all keyframes as a trajectory in TUM's form.
+void WriteKeyFrames(const Map& map, const std::filesystem::path& path) {
+  std::ofstream file(path);
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    const plumbline::Rigid3 pose = plumbline::Inverse(keyframe.frame.cam_from_world);
+    const Eigen::Quaterniond& q = pose.rotation;
+    file << fmt::format("{}.{:09d} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f}\n",
+                        keyframe.frame.stamp_ns / 1'000'000'000,
+                        keyframe.frame.stamp_ns % 1'000'000'000,
+                        pose.translation.x(),
+                        pose.translation.y(),
+                        pose.translation.z(),
+                        q.x(),
+                        q.y(),
+                        q.z(),
+                        q.w());
+  }
+}
+
+void Measure(const std::filesystem::path& path) {
+  plumbline::SavedMap saved = plumbline::LoadMap(path);
+  plumbline::CameraAndPyramid imaging;
   imaging.camera = saved.camera;
-  MappingOptions options;
-  options.final_adjustment_keyframes = 1'000'000;
-  const auto start = std::chrono::steady_clock::now();
-  const plumbline::MapCorrection correction =
-      plumbline::AdjustWholeMap(saved.map, imaging, LineSettings{}, options);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  fmt::print("{}: {} keyframes, {} points, {} lines, {} poses moved, {:.2f} s\n",
-             path,
+  const double before = PeakMegabytes();
+  const LocalMapper mapper(imaging, {}, {});
+  const std::vector<MappingStep> steps = mapper.Finish(saved.map);
+  fmt::print("{}: {} keyframes, {} points, {} lines:",
+             path.string(),
              saved.map.keyframes().size(),
              saved.map.points().size(),
-             saved.map.lines().size(),
-             correction.keyframes.size(),
-             seconds.count());
+             saved.map.lines().size());
+  double sum = 0;
+  for (const MappingStep& step : steps) {
+    fmt::print(" {} {:.2f} s,", step.name, 1e-3 * step.milliseconds);
+    sum += 1e-3 * step.milliseconds;
+  }
+  fmt::print(" all {:.2f} s; {:.0f} -> {:.0f} MB\n", sum, before, PeakMegabytes());
+  WriteKeyFrames(saved.map, std::filesystem::path(path).replace_extension(".txt"));
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 // the drive and a snapshot, which must not grow, also while there is a copy of the map; the copy,
 // which blocks mapping; the change of its stereo correction; the essential graph that verifies a
 // loop, anew and after one keyframe; writing and reading its file; the common directions of lines,
-// the search for well observed lines, and the final adjustment (--steps: not these), which may
-// grow; the largest memory so far.
+// the search for well observed lines, and the final adjustment (--steps: not these; --end: only
+// these), which may grow; the largest memory so far.
 #include "plumbline/io/map_file/map_io.h"
 #include "plumbline/loop_closing/essential_graph.h"
 #include "plumbline/loop_closing/options.h"
@@ -119,8 +119,8 @@ void MeasureCopy(const LongDrive& drive) {
   fmt::print("  copy of the map {:.2f} ms, given up {:.2f} ms\n", 1000 * made, 1000 * given_up);
 }
 
-// Mean milliseconds of CPU of each step of mapping, and of a snapshot, over some keyframes. With an
-// unused copy made before the first.
+// Mean milliseconds of CPU of mapping a keyframe and of a snapshot, and wall-clock ones of each
+// step, over some keyframes. With an unused copy made before the first.
 void MeasureSteps(const LongDrive& drive, bool with_copy) {
   constexpr int kKeyFrames = 20;
   Map map = Unshared(drive.map);
@@ -128,12 +128,13 @@ void MeasureSteps(const LongDrive& drive, bool with_copy) {
   const std::vector<KeyFrame> taken = TakeOutLast(kKeyFrames, map);
   const Map copy = with_copy ? map : Map();
   std::vector<MappingStep> sums;
-  double snapshot = 0;
+  double mapped = 0, snapshot = 0;
   KeyFrameId parent = map.keyframes().rbegin()->first;
   for (KeyFrame keyframe : taken) {
     keyframe.id = map.NextKeyFrameId();
     keyframe.parent = std::exchange(parent, keyframe.id);
-    const std::vector<MappingStep> steps = mapper.Add(map, keyframe, {});
+    std::vector<MappingStep> steps;
+    mapped += Measure([&] { steps = mapper.Add(map, keyframe, {}); }) / kKeyFrames;
     sums.resize(steps.size());
     for (std::size_t i = 0; i < steps.size(); ++i) {
       sums[i].name = steps[i].name;
@@ -141,9 +142,12 @@ void MeasureSteps(const LongDrive& drive, bool with_copy) {
     }
     snapshot += Measure([&] { TakeSnapshot(map, keyframe.id); }) / kKeyFrames;
   }
-  fmt::print("  {}", with_copy ? "beside a copy " : "");
-  for (const MappingStep& step : sums) fmt::print("{} {:.2f} ms, ", step.name, step.milliseconds);
-  fmt::print("snapshot {:.2f} ms\n", 1000 * snapshot);
+  fmt::print("  {}keyframe {:.2f} ms, snapshot {:.2f} ms;",
+             with_copy ? "beside a copy " : "",
+             1000 * mapped,
+             1000 * snapshot);
+  for (const MappingStep& step : sums) fmt::print(" {} {:.2f} ms", step.name, step.milliseconds);
+  fmt::print("\n");
 }
 
 // The longest of the steps in which all keyframes get another stereo correction.
@@ -217,7 +221,27 @@ void MeasureFile(const LongDrive& drive) {
              keyframes);
 }
 
-void Run(std::string_view name, DriveShape shape, int keyframes, bool steps_only) {
+// What the end of a run takes: the whole map adjusted twice, and misfits taken out.
+void MeasureEnd(LongDrive& drive) {
+  std::size_t directions = 0, lines = 0;
+  const double common = Measure([&] { directions = CommonDirections(drive.map).size(); });
+  fmt::print("  {} common directions of lines {:.1f} ms\n", directions, 1000 * common);
+  const double search =
+      Measure([&] { lines = FindWellSeenLines(drive.map, drive.imaging, {}).size(); });
+  fmt::print("  {} well seen lines {:.2f} s\n", lines, search);
+  const double before = WorstMotion(drive);
+  const LocalMapper mapper(drive.imaging, {}, {});
+  const double adjust = Measure([&] { mapper.Finish(drive.map); });
+  fmt::print("  adjustment, twice {:.2f} s, worst motion {:.0f} -> {:.1f} mm off; {:.1f} GB\n",
+             adjust,
+             before,
+             WorstMotion(drive),
+             PeakGigabytes());
+}
+
+enum class Part { kAll, kSteps, kEnd };
+
+void Run(std::string_view name, DriveShape shape, int keyframes, Part part) {
   LongDrive drive = MakeLongDrive(shape, keyframes);
   std::size_t observations = 0;
   for (const auto& [id, point] : drive.map.points()) observations += point.observations.size();
@@ -228,28 +252,15 @@ void Run(std::string_view name, DriveShape shape, int keyframes, bool steps_only
              observations,
              drive.map.lines().size(),
              PeakGigabytes());
-  MeasureSteps(drive, false);
-  MeasureSteps(drive, true);
-  MeasureCopy(drive);
-  MeasureStereoChange(drive);
-  MeasureEssentialGraph(drive);
-  MeasureFile(drive);
-  if (steps_only) return;
-  std::size_t directions = 0, lines = 0;
-  const double common = Measure([&] { directions = CommonDirections(drive.map).size(); });
-  fmt::print("  {} common directions of lines {:.1f} ms\n", directions, 1000 * common);
-  const double search =
-      Measure([&] { lines = FindWellSeenLines(drive.map, drive.imaging, {}).size(); });
-  fmt::print("  {} well seen lines {:.2f} s\n", lines, search);
-  const double before = WorstMotion(drive);
-  MappingOptions options;
-  const LocalMapper mapper(drive.imaging, {}, options);
-  const double adjust = Measure([&] { mapper.Finish(drive.map); });
-  fmt::print("  adjustment, twice {:.2f} s, worst motion {:.0f} -> {:.1f} mm off; {:.1f} GB\n",
-             adjust,
-             before,
-             WorstMotion(drive),
-             PeakGigabytes());
+  if (part != Part::kEnd) {
+    MeasureSteps(drive, false);
+    MeasureSteps(drive, true);
+    MeasureCopy(drive);
+    MeasureStereoChange(drive);
+    MeasureEssentialGraph(drive);
+    MeasureFile(drive);
+  }
+  if (part != Part::kSteps) MeasureEnd(drive);
 }
 
 }  // namespace
@@ -259,12 +270,15 @@ int main(int count, char** arguments) {
   const auto shape =
       count > 2 ? plumbline::ShapeNamed(arguments[1]) : std::optional<plumbline::DriveShape>();
   if (!shape) {
-    fmt::print(stderr, "usage: large_map straight|chain|hub|rounds [--steps] KEYFRAMES...\n");
+    fmt::print(stderr, "usage: large_map straight|chain|hub|rounds [--steps|--end] KEYFRAMES...\n");
     return 2;
   }
-  const bool steps_only = std::string_view(arguments[2]) == "--steps";
-  for (int i = steps_only ? 3 : 2; i < count; ++i) {
-    plumbline::Run(arguments[1], *shape, std::max(100, std::atoi(arguments[i])), steps_only);
+  const std::string_view option = arguments[2];
+  const plumbline::Part part = option == "--steps" ? plumbline::Part::kSteps
+                               : option == "--end" ? plumbline::Part::kEnd
+                                                   : plumbline::Part::kAll;
+  for (int i = part == plumbline::Part::kAll ? 2 : 3; i < count; ++i) {
+    plumbline::Run(arguments[1], *shape, std::max(100, std::atoi(arguments[i])), part);
   }
   return 0;
 }

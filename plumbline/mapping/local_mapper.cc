@@ -12,7 +12,6 @@
 #include "plumbline/optimization/pose_uncertainty.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -21,14 +20,6 @@
 
 namespace plumbline {
 namespace {
-
-template <class Step>
-void Timed(const char* name, std::vector<MappingStep>& times, const Step& step) {
-  const auto start = std::chrono::steady_clock::now();
-  step();
-  const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-  times.push_back({name, taken.count()});
-}
 
 // A correction is not worth changing all keyframes for if it changes no disparity by more than
 // this.
@@ -177,12 +168,10 @@ std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) co
   }
   MappingOptions options = options_;
   for (int round = 0; round < kRounds; ++round) {
-    Timed("finish", times, [&] {
-      map.Apply(RebaseCorrection(AdjustWholeMap(map, imaging_, lines_, options, stop), map));
-    });
+    map.Apply(RebaseCorrection(AdjustWholeMap(map, imaging_, lines_, options, stop, &times), map));
     options.lens_calibration = false;  // the first round has learned the lens
   }
-  Timed("finish", times, [&] { map.Apply(RemoveOutliers(map, imaging_, lines_)); });
+  Timed("finish_outliers", times, [&] { map.Apply(RemoveOutliers(map, imaging_, lines_)); });
   return times;
 }
 

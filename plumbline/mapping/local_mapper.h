@@ -9,6 +9,7 @@
 #include "plumbline/mapping/landmark_culling.h"
 #include "plumbline/mapping/map_correction.h"
 #include "plumbline/mapping/mapped_line.h"
+#include "plumbline/mapping/mapping_step.h"
 #include "plumbline/mapping/options.h"
 #include "plumbline/mapping/point_alignment.h"
 #include "plumbline/mapping/stereo_calibration.h"
@@ -19,16 +20,9 @@
 #include <deque>
 #include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace plumbline {
-
-// Milliseconds spent in one step of a keyframe's mapping.
-struct MappingStep {
-  std::string name;
-  double milliseconds = 0;
-};
 
 // A landmark of a feature, and the number of keyframes that show it.
 template <class LandmarkId>
@@ -71,7 +65,8 @@ class LocalMapper {
 
   // Adjusts a finished map twice (AdjustWholeMap), with its pending stereo correction, and removes
   // outliers (RemoveOutliers). When stopped, the poses are those of the last completed adjustment.
-  // Returns the time of each step, in order.
+  // Returns the time of each step, in order: "finish_lens", "finish_lines" and "finish_adjust" of
+  // each adjustment, and "finish_outliers".
   std::vector<MappingStep> Finish(Map& map, const StopCheck& stop = {}) const;
 
   // Applies the learned stereo correction to a new, empty map.

@@ -216,7 +216,8 @@ MapCorrection AdjustWholeMap(const Map& map,
                              const CameraAndPyramid& imaging,
                              const LineSettings& lines,
                              const MappingOptions& options,
-                             const StopCheck& stop) {
+                             const StopCheck& stop,
+                             std::vector<MappingStep>* times) {
   constexpr std::size_t kMinKeyFrames = 3;
   const int limit = options.final_adjustment_keyframes;
   const std::size_t count = map.keyframes().size();
@@ -229,15 +230,22 @@ MapCorrection AdjustWholeMap(const Map& map,
   if (large && TakesTooLong(without_lines(map), limit, stop)) return {};
   MapCorrection to_lens;
   std::optional<Map> moved;
+  std::vector<MappingStep> not_wanted;
+  std::vector<MappingStep>& steps = times != nullptr ? *times : not_wanted;
   if (imaging.camera.baseline == 0) {
-    auto adjusted = AdjustPointsToFinalLens(map, options, without_lines(map), stop);
+    std::optional<MapCorrection> adjusted;
+    Timed("finish_lens", steps, [&] {
+      adjusted = AdjustPointsToFinalLens(map, options, without_lines(map), stop);
+    });
     if (!adjusted || IsToStop(stop)) return {};
     to_lens = *std::move(adjusted);
     if (!to_lens.empty()) moved.emplace(map).Apply(RebaseCorrection(to_lens, map));
   }
   const Map& at_lens = moved ? *moved : map;
-  const std::vector<WellSeenLine> well_seen =
-      FindWellSeenLines(at_lens, imaging, kAdjustedLines, stop);
+  std::vector<WellSeenLine> well_seen;
+  Timed("finish_lines", steps, [&] {
+    well_seen = FindWellSeenLines(at_lens, imaging, kAdjustedLines, stop);
+  });
   if (IsToStop(stop)) return {};
   MapProblem whole = MakeWholeMap(at_lens, imaging, lines.weights(), well_seen, stop);
   // Long lines that are seen from far away can tie many keyframes together, so that solving would
@@ -245,12 +253,15 @@ MapCorrection AdjustWholeMap(const Map& map,
   if (large && TakesTooLong(whole, limit, stop)) whole = without_lines(at_lens);
   if (IsToStop(stop)) return {};
   PosesAndPoints start{whole.problem.poses, whole.problem.points};
-  const std::optional<BaResult> result = SolveAndFixScale(whole.problem,
-                                                          start,
-                                                          options.ba,
-                                                          lines.method.adjust_map,
-                                                          options.window.whole_map_limits(),
-                                                          stop);
+  std::optional<BaResult> result;
+  Timed("finish_adjust", steps, [&] {
+    result = SolveAndFixScale(whole.problem,
+                              start,
+                              options.ba,
+                              lines.method.adjust_map,
+                              options.window.whole_map_limits(),
+                              stop);
+  });
   if (!result) return {};
   start.Exchange(whole.problem);
   return Joined(to_lens, CorrectionOf(at_lens, whole, {}, *result));

@@ -5,9 +5,12 @@
 #include "plumbline/base/stop_check.h"
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/map_correction.h"
+#include "plumbline/mapping/mapping_step.h"
 #include "plumbline/mapping/options.h"
 #include "plumbline/matching/line_method.h"
 #include "plumbline/matching/projection_search.h"
+
+#include <vector>
 
 namespace plumbline {
 
@@ -34,13 +37,15 @@ namespace plumbline {
 // Returns an empty correction for a map of less than three keyframes, and for one whose equations
 // take longer to solve than those of mapping.final_adjustment_keyframes keyframes that all share
 // landmarks (FullSize); if only the lines make it so large, it is adjusted without them. The
-// correction is also empty when stopped. Cost: FindWellSeenLines, and bundle adjustment of the
-// whole map, with the time of SchurSolver::Solve.
+// correction is also empty when stopped. `times` gets the times of its steps, named as those of
+// LocalMapper::Finish. Cost: FindWellSeenLines, and bundle adjustment of the whole map, with the
+// time of SchurSolver::Solve.
 MapCorrection AdjustWholeMap(const Map& map,
                              const CameraAndPyramid& imaging,
                              const LineSettings& lines,
                              const MappingOptions& options,
-                             const StopCheck& stop = {});
+                             const StopCheck& stop = {},
+                             std::vector<MappingStep>* times = nullptr);
 
 // Estimates the lens of a single camera from the points of a growing map
 // (CalibrateRadialDistortion), and adjusts keyframes and points to it. The newest keyframe that

@@ -417,8 +417,8 @@ TEST(System, TellsThePoseBeforeTheKeyFrameIsHandedOn) {
 
 TEST(System, CountsWhatIsDoneAtTheEndWithTheLastFrame) {
   const RunResult result = RunPoster(3);
-  EXPECT_EQ(CountStage(result.frames[1], "map_finish"), 0);
-  EXPECT_GT(CountStage(result.frames[2], "map_finish"), 0);
+  EXPECT_EQ(CountStage(result.frames[1], "map_finish_outliers"), 0);
+  EXPECT_GT(CountStage(result.frames[2], "map_finish_outliers"), 0);
 }
 
 }  // namespace system_test
