@@ -21,6 +21,37 @@ namespace {
 // With a smaller share, the line was prolonged over another structure that happens to be collinear.
 constexpr double kMinShownShare = 0.4;
 
+// A keyframe is searched if it is not more than so many times as far from the line as the furthest
+// of those that are known to show it.
+constexpr double kReach = 3;
+
+double MiddleDistance(const Frame& frame, const Segment3& segment) {
+  return (frame.cam_from_world * (0.5 * (segment.start + segment.end))).norm();
+}
+
+// Sets how far from a hypothesis its segments are searched, by the keyframes that show it so far.
+void SetReach(std::span<const LineSupport> supports, LineHypothesis& line) {
+  const Segment3 segment = SegmentOf(line.line, line.interval);
+  line.reach = 0;
+  for (const LineSupport& support : supports) {
+    line.reach = std::max(line.reach, kReach * MiddleDistance(support.keyframe->frame, segment));
+  }
+}
+
+// Returns a landmark as a hypothesis.
+LineHypothesis Hypothesis(const Map& map, const MapLine& landmark) {
+  LineHypothesis line;
+  line.line = landmark.line;
+  line.interval = {landmark.start, landmark.end};
+  line.information = landmark.information;
+  std::vector<LineSupport> shown;
+  for (const auto& [keyframe, feature] : landmark.observations) {
+    shown.push_back({map.Find(keyframe), static_cast<std::size_t>(feature)});
+  }
+  SetReach(shown, line);
+  return line;
+}
+
 struct SupportedLine {
   LineHypothesis hypothesis;
   std::vector<LineSupport> supports;
@@ -44,6 +75,7 @@ std::optional<SupportedLine> Support(const LineSupportSearch& search,
     line.parts = ShownParts(camera, through->line, line.supports, min_keyframes, kMinShownShare);
     if (line.parts.empty()) return std::nullopt;
     line.hypothesis.interval = {line.parts.front().start, line.parts.back().end};
+    SetReach(line.supports, line.hypothesis);
     std::vector<LineSupport> supports = search.Find(line.hypothesis);
     if (supports == line.supports) return line;
     line.supports = std::move(supports);
@@ -90,10 +122,6 @@ struct Sightings {
   double mean_chi2 = 0;       // mean over the segments in the left images, by their own deviations
   double mean_length_px = 0;  // mean over the segments in the left images
 };
-
-double MiddleDistance(const Frame& frame, const Segment3& segment) {
-  return (frame.cam_from_world * (0.5 * (segment.start + segment.end))).norm();
-}
 
 // Returns the squared distances of a support's ends from the line, over their variances; infinity
 // if the line has no projection.
@@ -204,10 +232,7 @@ std::vector<WellSeenLine> FindWellSeenLines(const Map& map,
   std::vector<WellSeenLine> lines;
   for (const MapLine* landmark : ByObservations(map)) {
     if (IsToStop(stop)) break;
-    auto line = Support(search,
-                        imaging.camera,
-                        {landmark->line, {landmark->start, landmark->end}, landmark->information},
-                        options.min_keyframes);
+    auto line = Support(search, imaging.camera, Hypothesis(map, *landmark), options.min_keyframes);
     if (!line) continue;
     std::vector<MappedLine> pieces = GoodPieces(search.views(), imaging.camera, *line, options);
     if (pieces.empty()) continue;

@@ -25,7 +25,8 @@ struct WellSeenLine {
 // The landmarks serve tracking, which gains even from weak ones; here they are only hypotheses, in
 // the order of their numbers of observations. All segments of all keyframes that show the line are
 // found, whatever landmark they were matched with (LineSupportSearch), and a new line is fitted to
-// them; this is repeated three times. Of the parts that enough keyframes show (ShownParts), those
+// them; this is repeated three times. Searched are keyframes up to three times as far from the line
+// as the furthest that shows it so far. Of the parts that enough keyframes show (ShownParts), those
 // intervals are kept whose uncertainty is small enough, that are shown by enough of the keyframes
 // that have them in their image, and whose segments fit and are long enough (LineMapOptions). A
 // line with any kept interval claims its segments, so that other landmarks made from them find no

@@ -105,7 +105,7 @@ std::vector<LineSupport> LineSupportSearch::Find(const LineHypothesis& hypothesi
   const Segment3 segment = SegmentOf(hypothesis.line, hypothesis.interval);
   const UncertainLine uncertain(hypothesis.line, hypothesis.information);
   std::vector<LineSupport> supports;
-  for (const int index : views_.MayShow(segment, kMinLengthPx)) {
+  for (const int index : views_.MayShow(segment, kMinLengthPx, hypothesis.reach)) {
     const KeyFrame& keyframe = views_.keyframe(index);
     const Rigid3& pose = keyframe.frame.cam_from_world;
     const Segment3 in_camera{pose * segment.start, pose * segment.end};
@@ -178,7 +178,10 @@ std::optional<LineHypothesis> LineThroughSupports(const RectifiedCamera& camera,
   }
   const auto found = TriangulateLine(camera, views, options);
   if (!found) return std::nullopt;
-  return LineHypothesis{found->line, {}, found->covariance.inverse()};
+  LineHypothesis line;
+  line.line = found->line;
+  line.information = found->covariance.inverse();
+  return line;
 }
 
 std::vector<LineInterval> ShownParts(const RectifiedCamera& camera,

@@ -13,6 +13,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -89,6 +90,8 @@ struct LineHypothesis {
   PluckerLine line;
   LineInterval interval;                                  // start < end
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();  // information of the orthonormal tangent
+  // Largest distance of a keyframe from the middle of the interval for it to be searched.
+  double reach = std::numeric_limits<double>::infinity();
 };
 
 // A line feature of a keyframe that matches the projection of a line of the world.

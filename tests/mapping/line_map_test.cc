@@ -105,6 +105,52 @@ TEST(LineMap, HasALineOnceHoweverOftenItIsInTheMap) {
   EXPECT_NEAR(Length(twice), Length(once), 0.05 * Length(once));
 }
 
+// How far the keyframes from one id up to another are from a line that they show.
+std::vector<double> DistancesOf(const WellSeenLine& line, KeyFrameId from, KeyFrameId to) {
+  std::vector<double> distances;
+  const Eigen::Vector3d middle = line.pieces.front().segment.Midpoint();
+  for (const LineSupport& support : line.supports) {
+    const KeyFrame& keyframe = *support.keyframe;
+    if (keyframe.id < from || !(keyframe.id < to)) continue;
+    distances.push_back((keyframe.frame.cam_from_world * middle).norm());
+  }
+  return distances;
+}
+
+TEST(LineMap, SearchesThreeTimesAsFarAsALineIsKnownToBeSeen) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 200);
+  constexpr int kNear = 8, kFar = 4;
+  std::vector<Rigid3> poses;
+  for (int k = 0; k < kNear + kFar; ++k) {
+    poses.push_back(PoseOnPath(8 * (k % kNear)));
+    if (k >= kNear) poses.back().translation.z() += 20;
+  }
+  TrueMap scene = MakeTrueMap(world, poses, kNoisy);
+  // Lines that are shown from more than three times as far as by any of the near keyframes.
+  const auto shown_from_afar = [&](const Map& map) {
+    int count = 0;
+    for (const WellSeenLine& line : FindWellSeenLines(map, world.Imaging(), {})) {
+      const auto near = DistancesOf(line, KeyFrameId{0}, KeyFrameId{kNear});
+      const auto far = DistancesOf(line, KeyFrameId{kNear}, KeyFrameId{kNear + kFar});
+      if (near.empty() || far.empty()) continue;
+      count += *std::min_element(far.begin(), far.end()) >
+               3.2 * *std::max_element(near.begin(), near.end());
+    }
+    return count;
+  };
+  EXPECT_GT(shown_from_afar(scene.map), 3);
+  MapEdit forget;
+  for (const auto& [id, line] : scene.map.lines()) {
+    for (const auto& [keyframe, feature] : line.observations) {
+      if (!(keyframe < KeyFrameId{kNear})) {
+        forget.push_back(edit::RemoveLineObservation{id, keyframe});
+      }
+    }
+  }
+  scene.map.Apply(forget);
+  EXPECT_EQ(shown_from_afar(scene.map), 0);
+}
+
 TEST(LineMap, LeavesOutLandmarksThatAreInTheWrongPlace) {
   const SyntheticWorld world = MakeSyntheticWorld(0, 60);
   TrueMap scene = Scene(world);

@@ -53,6 +53,31 @@ TEST(LineSupportSearch, FindsTheSegmentsOfALineWithoutItsMatches) {
   EXPECT_LE(wrong, 0.03 * all);
 }
 
+TEST(LineSupportSearch, LooksNoFurtherThanItsReach) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 30);
+  const TrueMap scene = SixKeyFrames(world, kExactly);
+  const CameraAndPyramid imaging = world.Imaging();
+  const LineSupportSearch search(scene.map, imaging);
+  int near = 0, far = 0;
+  for (const auto& [id, line] : scene.map.lines()) {
+    LineHypothesis hypothesis = HypothesisOf(line);
+    const Eigen::Vector3d middle = SegmentOf(line.line, hypothesis.interval).Midpoint();
+    const auto distance = [&](const LineSupport& support) {
+      return (support.keyframe->frame.cam_from_world * middle).norm();
+    };
+    const auto all = search.Find(hypothesis);
+    if (all.size() < 3) continue;
+    hypothesis.reach = distance(all[all.size() / 2]);
+    auto expected = all;
+    std::erase_if(expected, [&](const auto& s) { return distance(s) > hypothesis.reach; });
+    EXPECT_EQ(search.Find(hypothesis), expected);
+    near += static_cast<int>(expected.size());
+    far += static_cast<int>(all.size() - expected.size());
+  }
+  EXPECT_GT(near, 20);
+  EXPECT_GT(far, 20);
+}
+
 TEST(LineSupportSearch, LeavesOutWhatIsClaimed) {
   const SyntheticWorld world = MakeSyntheticWorld(0, 30);
   const TrueMap scene = SixKeyFrames(world, kExactly);
