@@ -15,7 +15,6 @@
 namespace plumbline {
 namespace {
 
-constexpr std::chrono::seconds kLineEvery(5);
 constexpr std::chrono::milliseconds kBarEvery(100);
 
 std::string Bar(std::size_t done, std::size_t total) {
@@ -36,13 +35,13 @@ std::string OneLine(const std::string& text) {
 
 }  // namespace
 
-ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+ProgressLine::ProgressLine(bool quiet, std::chrono::milliseconds every)
+    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), every_(terminal_ ? kBarEvery : every) {}
 
 void ProgressLine::Show(std::size_t done, std::size_t total, const std::string& text) {
   const auto now = Clock::now();
   const bool last = done == total;
-  const auto interval = terminal_ ? Clock::duration(kBarEvery) : Clock::duration(kLineEvery);
-  if (quiet_ || (!last && now - shown_ < interval)) return;
+  if (quiet_ || (!last && now - shown_ < every_)) return;
   shown_ = now;
   std::clog << (terminal_ ? '\r' + OneLine(Bar(done, total) + text) + (last ? "\n" : "")
                           : text + '\n')
@@ -51,8 +50,7 @@ void ProgressLine::Show(std::size_t done, std::size_t total, const std::string& 
 
 void ProgressLine::ShowOpen(const std::string& text) {
   const auto now = Clock::now();
-  const auto interval = terminal_ ? Clock::duration(kBarEvery) : Clock::duration(kLineEvery);
-  if (quiet_ || now - shown_ < interval) return;
+  if (quiet_ || now - shown_ < every_) return;
   shown_ = now;
   std::clog << (terminal_ ? '\r' + OneLine(text) : text + '\n') << std::flush;
 }
@@ -88,6 +86,19 @@ void Countdown::Show(std::size_t done, const std::string& note) {
 
 void Progress::Show(const FrameRecord& frame) {
   countdown_.Show(static_cast<std::size_t>(frame.id.value) + 1, NameOf(frame.status));
+}
+
+AdjustmentProgress::~AdjustmentProgress() {
+  if (shown_ != start_) line_.End();
+}
+
+// The caller asks for each point of the map; text is made for few of these calls.
+void AdjustmentProgress::Show() {
+  const auto now = Clock::now();
+  if (now - shown_ < kBarEvery) return;
+  shown_ = now;
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  line_.ShowOpen(fmt::format("adjusting the map  {:.0f} s", seconds));
 }
 
 }  // namespace plumbline

@@ -15,7 +15,8 @@ namespace plumbline {
 // Reports progress on stderr: a bar on a terminal, otherwise a line every few seconds.
 class ProgressLine {
  public:
-  explicit ProgressLine(bool quiet);
+  // `every`: least time between two lines where there is no terminal.
+  explicit ProgressLine(bool quiet, std::chrono::milliseconds every = std::chrono::seconds(5));
 
   // May be called at any rate; the end, done == total, is always shown.
   void Show(std::size_t done, std::size_t total, const std::string& text);
@@ -33,6 +34,7 @@ class ProgressLine {
 
   bool quiet_;
   bool terminal_;
+  Clock::duration every_;
   Clock::time_point shown_ = Clock::now();
 };
 
@@ -78,6 +80,25 @@ class Progress {
 
  private:
   Countdown countdown_;
+};
+
+// Shows for how long the maps have been adjusted after the last frame. Not thread-safe.
+class AdjustmentProgress {
+ public:
+  explicit AdjustmentProgress(const ProgressLine& line) : line_(line) {}
+  // Ends the line on a terminal.
+  ~AdjustmentProgress();
+  AdjustmentProgress(const AdjustmentProgress&) = delete;
+  AdjustmentProgress& operator=(const AdjustmentProgress&) = delete;
+
+  // May be called at any rate; shows nothing in the first moments.
+  void Show();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  ProgressLine line_;
+  Clock::time_point start_ = Clock::now(), shown_ = start_;
 };
 
 }  // namespace plumbline

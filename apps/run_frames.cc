@@ -93,7 +93,7 @@ class FrameFeed {
     Keeping([&] { Report(journal_.Write(folder_)); });
     SayStopped();
     std::exception_ptr failure;
-    result_.result = pipeline_.Finish(StepStop(), &failure);
+    result_.result = Adjust(&failure);
     Keeping([&] {
       if (failure) std::rethrow_exception(failure);
     });
@@ -126,6 +126,16 @@ class FrameFeed {
     input_.viewer->Show(record, view, system_.EventsSince(events_shown_).relocalizations);
     ShowMaps(record.keyframe);
     Report(input_.viewer->TakeFailure());
+  }
+
+  RunResult Adjust(std::exception_ptr* failure) {
+    AdjustmentProgress progress{ProgressLine(quiet_)};
+    return pipeline_.Finish(
+        [&, stop = StepStop()] {
+          progress.Show();
+          return stop();
+        },
+        failure);
   }
 
   // In the thread that tracks, which only asks for a copy of the maps.
