@@ -5,6 +5,7 @@
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/ids.h"
+#include "plumbline/optimization/symmetric_rank_update.h"
 
 #include <algorithm>
 #include <cmath>
@@ -219,7 +220,7 @@ bool Eliminate(Eigen::MatrixXd& columns, Eigen::MatrixXd& change) {
   if (change.rows() == 0) return true;
   auto below = columns.bottomRows(change.rows());
   top.transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(below);
-  change.selfadjointView<Eigen::Lower>().rankUpdate(below, -1);
+  SubtractSquare(below, change);
   return true;
 }
 
