@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/local_ba_window.h"
 
+#include "plumbline/map/covisibility.h"
+#include "plumbline/map/snapshot.h"
 #include "plumbline/mapping/map_problem.h"
 
 #include "tests/support/true_map.h"
@@ -151,6 +153,18 @@ TEST(LocalBaWindow, FreesTheClosestAndFixesTheRest) {
   EXPECT_EQ(Free(window).size(), 3U);
   EXPECT_TRUE(Free(window).contains(KeyFrameId{8}));
   EXPECT_EQ(window.keyframes.size(), 5U);
+}
+
+// The work of a keyframe does not grow with the number of others that see the same landmarks.
+TEST(LocalBaWindow, IsBoundedHoweverManyKeyFramesSeeTheSame) {
+  const SyntheticWorld world = MakeSyntheticWorld(60, 10);
+  const TrueMap scene = MakeTrueMap(world, Path(90, 1), kSensor);
+  ASSERT_GT(Covisible(scene.map, KeyFrameId{89}).size(), 80U);
+  const LocalBaWindow window = Window(scene, world, 89, {});
+  EXPECT_EQ(Free(window).size(), 12U);
+  EXPECT_EQ(window.keyframes.size(), 32U);
+  const auto snapshot = TakeSnapshot(scene.map, KeyFrameId{89});
+  EXPECT_EQ(snapshot->cam_from_world.size(), static_cast<std::size_t>(kSnapshotKeyFrames));
 }
 
 TEST(LocalBaWindow, SomethingAlwaysHoldsTheGauge) {
