@@ -88,7 +88,8 @@ class Chart:
         self.parts.append(f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" '
                           f'fill="{color}" {extra}>{text}</text>')
 
-    def axes(self, x_values, label="free keyframes (with 200 points and 30 lines each)"):
+    def axes(self, x_values, label="free keyframes (with 200 points and 30 lines each)",
+             y_label="CPU time to convergence [ms]"):
         bottom, right = HEIGHT - BOTTOM, WIDTH - RIGHT
         for value in x_values:
             self.line([(self.x(value), TOP), (self.x(value), bottom)], "#ddd")
@@ -99,7 +100,7 @@ class Chart:
         self.line([(LEFT, TOP), (LEFT, bottom), (right, bottom)], "#333")
         self.text((LEFT + right) / 2, HEIGHT - 18, label)
         middle = (TOP + bottom) / 2
-        self.text(20, middle, "CPU time to convergence [ms]",
+        self.text(20, middle, y_label,
                   extra=f'transform="rotate(-90 20 {middle:.1f})"')
 
     def svg(self, title):
