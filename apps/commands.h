@@ -12,6 +12,7 @@ namespace plumbline {
 // prints in one line and turns into exit code 2. A new command needs a file, a line here, and a row
 // in main.cc. Those of the worlds and of the laboratory exist if these are built.
 int ConfigCommand(std::span<const std::string> arguments);
+int ConsistencyCommand(std::span<const std::string> arguments);
 int EvaluateCommand(std::span<const std::string> arguments);
 int ExperimentCommand(std::span<const std::string> arguments);
 int InfoCommand(std::span<const std::string> arguments);

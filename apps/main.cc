@@ -37,6 +37,7 @@ constexpr std::array kCommands = {
     Command{"evaluate", EvaluateCommand, "errors of a trajectory against ground truth"},
 #ifdef PLUMBLINE_WITH_LAB
     Command{"lines", LinesCommand, "errors of a run's lines against those of a known world"},
+    Command{"consistency", ConsistencyCommand, "promised covariances of a run against the truth"},
     Command{"starts", StartsCommand, "try monocular starts at many frames, against ground truth"},
 #endif
 #ifdef PLUMBLINE_WITH_WORLDS
@@ -51,8 +52,9 @@ constexpr std::array kCommands = {
 };
 
 // Commands that a build may lack, and the configuration needed for them.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kOptional = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kOptional = {{
     {"lines", "-DPLUMBLINE_LAB=ON"},
+    {"consistency", "-DPLUMBLINE_LAB=ON"},
     {"starts", "-DPLUMBLINE_LAB=ON"},
     {"synth", "-DPLUMBLINE_WORLDS=ON"},
     {"experiment", "-DPLUMBLINE_LAB=ON"},

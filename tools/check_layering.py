@@ -36,6 +36,8 @@ LAYERS = {
     "viewer": ["base", "geometry", "image", "features", "map", "slam", "io"],
     "worlds": ["base", "geometry", "inertial", "image", "io"],
     "line_maps": ["base", "geometry", "io", "report", "worlds"],
+    "consistency": ["base", "geometry", "features", "map", "matching", "optimization", "io",
+                    "report", "worlds", "line_maps"],
     "line_rivals": ["base", "geometry", "map", "matching", "optimization", "tracking"],
     "rivals": ["base", "geometry", "features", "image", "map", "matching", "optimization",
                "solvers", "line_cutting", "initialization", "tracking", "slam", "line_rivals"],
@@ -45,12 +47,12 @@ LAYERS = {
     "cutting_testbed": ["base", "geometry", "optimization", "line_cutting", "rivals"],
     "experiments": ["base", "geometry", "image", "features", "map", "matching", "initialization",
                     "optimization", "tracking", "io", "slam", "starts", "worlds", "report",
-                    "line_maps", "line_cutting", "cutting_testbed", "rivals"],
+                    "line_maps", "consistency", "line_cutting", "cutting_testbed", "rivals"],
 }
 # The modules that are not in plumbline/, and where they are. The product includes none of them, and the
 # worlds include nothing of the laboratory.
 RENDERER = "worlds"
-LABORATORY = {"line_maps", "line_rivals", "rivals", "ceres_reference", "starts", "cutting_testbed", "experiments"}
+LABORATORY = {"line_maps", "consistency", "line_rivals", "rivals", "ceres_reference", "starts", "cutting_testbed", "experiments"}
 # third-party prefix -> the files that may include it (regular expression; those of the product without
 # plumbline/). Headers are left out but for three, so that nobody needs more than Eigen to include the library.
 THIRD_PARTY = {
@@ -64,7 +66,7 @@ THIRD_PARTY = {
     "gmock/": None,
     "gtest/": None,
     "nlopt": r"lab/cutting_testbed/nlopt_\w+\.cc",
-    "nlohmann/": r"(io/\w+|report|viewer|lab/experiments|lab/line_maps)/\w+\.cc",
+    "nlohmann/": r"(io/\w+|report|viewer|lab/experiments|lab/line_maps|lab/consistency)/\w+\.cc",
     "opencv2/": r"image/(opencv_bridge|opencv_modules|image_codecs|plain_png)\.h|"
                 r"(image|features|initialization|io/\w+|io|report|viewer)/\w+\.cc",
     "yaml-cpp/": r"((base|io/cameras|io)/\w+|lab/experiments/(printed_figures|gate))\.cc",

@@ -408,6 +408,44 @@ Experiment SwitchedLampsExperiment() {
   return experiment;
 }
 
+// How well promised covariances hold, where the world is known and in recordings.
+Experiment ConsistencyExperiment() {
+  Experiment experiment;
+  experiment.name = "consistency";
+  experiment.help = "errors of features, landmarks and motions against their covariances";
+  experiment.sequences = {{"worlds/room"},
+                          {"worlds/office"},
+                          {"worlds/vicon_medium"},
+                          {"worlds/town"},
+                          {"euroc/*"},
+                          {"kitti/*"},
+                          {"tum/*"}};
+  experiment.variants = {{"default", {}},
+                         {"constant", {"lines.weighting=none", "lines.constant_sigma_px=0.2"}}};
+  experiment.metrics = {"ate",
+                        "ate_causal",
+                        "roe_rmse",
+                        "inside_least",
+                        "inside_most",
+                        "inside_point",
+                        "inside_disparity",
+                        "inside_line",
+                        "inside_right_line",
+                        "inside_segment",
+                        "inside_right_segment",
+                        "inside_point_landmark",
+                        "inside_line_landmark",
+                        "inside_causal_1s",
+                        "inside_causal_5s",
+                        "inside_final_1s",
+                        "inside_final_5s"};
+  experiment.plots = {"inside_line", "inside_point"};
+  experiment.runs = 3;
+  experiment.reference = "default";
+  experiment.ratios = {"ate", "ate_causal", "roe_rmse"};
+  return experiment;
+}
+
 // What the first paper's rules for line matches do: lengths alike, and no more turn in the image
 // than the cameras have.
 Experiment LineMatchingExperiment() {
@@ -557,6 +595,7 @@ std::vector<Experiment> OwnExperiments() {
       LineControlExperiment(true),
       LineMatchingExperiment(),
       SwitchedLampsExperiment(),
+      ConsistencyExperiment(),
       CuttingExperiment(),
       CuttingControlExperiment(true),
       CuttingControlExperiment(false),

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/job_runner.h"
 
+#include "lab/experiments/consistency_figures.h"
 #include "lab/experiments/line_map_figures.h"
 #include "lab/experiments/pair_figures.h"
 #include "lab/experiments/reversed_sequence.h"
@@ -196,6 +197,9 @@ class Runner {
       };
       if (AsksForMapLines(metrics)) {
         AddMapLineFigures(job.command.at(1), job.folder, figures);
+      }
+      if (AsksForConsistency(metrics)) {
+        AddConsistencyFigures(job.command.at(1), job.folder, figures);
       }
       if (asked("rpe_pairs") || asked("start_rpe")) {
         AddPairFigures(job.command.at(1), job.folder, figures);

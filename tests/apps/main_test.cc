@@ -55,21 +55,21 @@ std::vector<std::string> Commands() {
   names.insert(names.end(), {"synth"});
 #endif
 #ifdef PLUMBLINE_WITH_LAB
-  names.insert(names.end(), {"experiment", "lines", "starts"});
+  names.insert(names.end(), {"consistency", "experiment", "lines", "starts"});
 #endif
   return names;
 }
 
 TEST(Program, ACommandThatWasNotBuiltSaysHowToBuildIt) {
   const std::vector<std::string> built = Commands();
-  for (const std::string name : {"synth", "experiment", "lines", "starts"}) {
+  for (const std::string name : {"synth", "consistency", "experiment", "lines", "starts"}) {
     if (std::find(built.begin(), built.end(), name) != built.end()) continue;
     const Outcome outcome = RunProgram(name);
     EXPECT_EQ(outcome.code, 2);
     EXPECT_THAT(outcome.err, HasSubstr(name + " is not part of this build"));
     EXPECT_THAT(outcome.err, HasSubstr("configure with -DPLUMBLINE_"));
   }
-  if (built.size() == 9) GTEST_SKIP() << "all commands were built";
+  if (built.size() == 10) GTEST_SKIP() << "all commands were built";
 }
 
 TEST(Program, EveryCommandHasHelp) {
