@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/line_rivals/rival_method.h"
 
+#include "lab/line_rivals/line_classes.h"
 #include "lab/line_rivals/line_ends.h"
 #include "lab/line_rivals/line_from_ends.h"
 #include "plumbline/tracking/projected_matches.h"
 
 #include <cstddef>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 namespace plumbline {
@@ -66,11 +68,18 @@ RivalLines RivalLinesOf(const std::string& residual) {
 
 std::vector<AddedMethod> AddedLineMethods() {
   const std::string residual = "lines.residual";
-  return {{residual, "plucker_left", "observed_ends, of lines turned about the axes of the frame"},
-          {residual, "projected_plucker_left", "projected_ends of the same"},
-          {residual, "endpoints", "observed_ends, of lines that are two points"},
-          {residual, "projected_endpoints", "projected_ends of the same"},
-          {"lines.reconstruction", "two_view", "the closest pair that agrees"}};
+  std::vector<AddedMethod> added = {
+      {residual, "plucker_left", "observed_ends, of lines turned about the axes of the frame"},
+      {residual, "projected_plucker_left", "projected_ends of the same"},
+      {residual, "endpoints", "observed_ends, of lines that are two points"},
+      {residual, "projected_endpoints", "projected_ends of the same"},
+      {"lines.reconstruction", "two_view", "the closest pair that agrees"}};
+  for (const auto& [which, name] : EnumNames(std::type_identity<LineClass>{})) {
+    added.push_back({"lines.reconstruction",
+                     std::string("without_") + name,
+                     std::string("n_view without a class of lines: ") + name});
+  }
+  return added;
 }
 
 LineMethod MethodFor(const LineOptions& options) {
@@ -82,6 +91,9 @@ LineMethod MethodFor(const LineOptions& options) {
   method.keeps_ends = parametrization == LineParametrization::kEndpoints;
   if (options.reconstruction == "two_view") {
     method.line_from_views = method.keeps_ends ? LineFromTwoEnds : LineFromTwoViews;
+  }
+  if (const auto without = LinesWithoutClass(options.reconstruction)) {
+    method.line_from_views = without;
   }
   method.adjust_window = SolverFor<LineResidualKind::kObservedEnds>(parametrization);
   method.adjust_map = method.adjust_window;
