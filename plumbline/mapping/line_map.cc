@@ -22,20 +22,11 @@ namespace {
 constexpr double kMinShownShare = 0.4;
 
 // A keyframe is searched if it is not more than so many times as far from the line as the furthest
-// of those that are known to show it.
+// of those that the map knows to show it.
 constexpr double kReach = 3;
 
 double MiddleDistance(const Frame& frame, const Segment3& segment) {
   return (frame.cam_from_world * (0.5 * (segment.start + segment.end))).norm();
-}
-
-// Sets how far from a hypothesis its segments are searched, by the keyframes that show it so far.
-void SetReach(std::span<const LineSupport> supports, LineHypothesis& line) {
-  const Segment3 segment = SegmentOf(line.line, line.interval);
-  line.reach = 0;
-  for (const LineSupport& support : supports) {
-    line.reach = std::max(line.reach, kReach * MiddleDistance(support.keyframe->frame, segment));
-  }
 }
 
 // Returns a landmark as a hypothesis.
@@ -44,11 +35,11 @@ LineHypothesis Hypothesis(const Map& map, const MapLine& landmark) {
   line.line = landmark.line;
   line.interval = {landmark.start, landmark.end};
   line.information = landmark.information;
-  std::vector<LineSupport> shown;
+  const Segment3 segment = SegmentOf(line.line, line.interval);
+  line.reach = 0;
   for (const auto& [keyframe, feature] : landmark.observations) {
-    shown.push_back({map.Find(keyframe), static_cast<std::size_t>(feature)});
+    line.reach = std::max(line.reach, kReach * MiddleDistance(map.Find(keyframe)->frame, segment));
   }
-  SetReach(shown, line);
   return line;
 }
 
@@ -72,10 +63,10 @@ std::optional<SupportedLine> Support(const LineSupportSearch& search,
     const auto through = LineThroughSupports(camera, line.supports);
     if (!through) return std::nullopt;
     line.hypothesis = *through;
+    line.hypothesis.reach = hypothesis.reach;
     line.parts = ShownParts(camera, through->line, line.supports, min_keyframes, kMinShownShare);
     if (line.parts.empty()) return std::nullopt;
     line.hypothesis.interval = {line.parts.front().start, line.parts.back().end};
-    SetReach(line.supports, line.hypothesis);
     std::vector<LineSupport> supports = search.Find(line.hypothesis);
     if (supports == line.supports) return line;
     line.supports = std::move(supports);

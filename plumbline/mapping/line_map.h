@@ -26,7 +26,7 @@ struct WellSeenLine {
 // the order of their numbers of observations. All segments of all keyframes that show the line are
 // found, whatever landmark they were matched with (LineSupportSearch), and a new line is fitted to
 // them; this is repeated three times. Searched are keyframes up to three times as far from the line
-// as the furthest that shows it so far. Of the parts that enough keyframes show (ShownParts), those
+// as the furthest that observes it. Of the parts that enough keyframes show (ShownParts), those
 // intervals are kept whose uncertainty is small enough, that are shown by enough of the keyframes
 // that have them in their image, and whose segments fit and are long enough (LineMapOptions). A
 // line with any kept interval claims its segments, so that other landmarks made from them find no
