@@ -94,10 +94,20 @@ TrackingResult Tracker::TrackInMap(Frame frame, const MapSnapshot& map, double f
   if (!best || !motion_.IsKnown() || state_ == TrackerState::kLost || IsWeak(*best)) {
     best = Better(std::move(best), TrackReferenceKeyFrame(frame, map, counts));
   }
-  const bool map_learns = !use_ || !use_->read_only;
-  if (best && map_learns) CountSeen(best->expected, best->association, scores_);
-
   PoseCandidate pose = CheckPose(std::move(best), counts);
+  // A gyroscope that does not belong to the images must not lose what these alone would find.
+  if (pose.failure != TrackingFailure::kNone && predicted.turn && gyroscope_->agrees()) {
+    Prediction by_images;
+    by_images.prior = motion_.Predict(last_pose, seconds);
+    auto alone = TrackWithMotionModel(frame, by_images, map);
+    if (alone) alone->predicted = false;
+    PoseCandidate other = CheckPose(std::move(alone), counts);
+    if (other.failure == TrackingFailure::kNone) pose = std::move(other);
+  }
+  const bool map_learns = !use_ || !use_->read_only;
+  if (pose.attempt && map_learns) {
+    CountSeen(pose.attempt->expected, pose.attempt->association, scores_);
+  }
   if (pose.failure != TrackingFailure::kNone) {
     return FinishLost(std::move(frame), pose.failure, pose.counts);
   }

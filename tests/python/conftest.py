@@ -26,7 +26,7 @@ def dataset(sequence):
 
 @pytest.fixture(scope="session")
 def finished(dataset):
-    return plumbline.run(dataset, imu="off")
+    return plumbline.run(dataset)
 
 
 @pytest.fixture(scope="session")

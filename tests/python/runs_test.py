@@ -119,7 +119,7 @@ def test_options_without_effect_are_told():
         plumbline.options(**plumbline.options(features={"lines": False}))
 
 
-def test_frames_from_anywhere_give_the_same_poses(dataset, finished):
+def test_frames_from_anywhere_give_the_same_poses(dataset):
     system = plumbline.System(dataset.calibration)
     for frame in dataset:
         images = (np.array(frame.left), np.asfortranarray(frame.right))
@@ -129,7 +129,7 @@ def test_frames_from_anywhere_give_the_same_poses(dataset, finished):
         assert result.stamp_ns == frame.stamp_ns
         assert result.status == "tracked"
     system.finish()
-    assert system.trajectory().to_tum() == finished.trajectory.to_tum()
+    assert system.trajectory().to_tum() == plumbline.run(dataset, imu="off").trajectory.to_tum()
     assert system.results() == []
 
 
@@ -254,7 +254,7 @@ def test_errors_are_small(finished):
                        - finished.dataset.ground_truth.positions[0]), abs=0.5)
 
 
-def test_a_snapshot_changes_no_result(dataset, finished):
+def test_a_snapshot_changes_no_result(dataset):
     system = plumbline.System(dataset.calibration)
     sizes = []
     for frame in dataset:
@@ -263,7 +263,7 @@ def test_a_snapshot_changes_no_result(dataset, finished):
         assert system.events()["loops"] == []
     system.finish()
     assert sizes == sorted(sizes) and 1 <= sizes[0] < sizes[-1]
-    assert system.trajectory().to_tum() == finished.trajectory.to_tum()
+    assert system.trajectory().to_tum() == plumbline.run(dataset, imu="off").trajectory.to_tum()
 
 
 def test_the_camera_is_found_in_a_map(finished, dataset, tmp_path):

@@ -249,6 +249,25 @@ TEST(Pipeline, TellsNoTurnOverSamplesThatAreMissing) {
   EXPECT_EQ(pipeline.Finish().inertial->turns, 1);
 }
 
+TEST(Pipeline, SamplesOfAnotherSensorLoseNoFrame) {
+  System system(MovingPoster::MakeCalibration(), InMode(RunMode::kInline));
+  system.UseInertial(GyroscopeAtTheCamera());
+  int tracked = 0;
+  Pipeline pipeline(system, [&](const FrameRecord& record, const FrameView&) {
+    tracked += record.status == FrameStatus::kTracked;
+  });
+  const MovingPoster poster;
+  for (int i = 0; i < 8; ++i) {
+    std::vector<InertialSample> samples = SamplesBefore(i);
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      samples[k].angular_rate = {20 + 0.1 * static_cast<double>(k), -30, 10};
+    }
+    pipeline.AddInertial(samples);
+    pipeline.Feed(poster.Frame(i));
+  }
+  EXPECT_EQ(tracked, 8);
+}
+
 class PipelineFailure : public ::testing::TestWithParam<RunMode> {};
 INSTANTIATE_TEST_SUITE_P(Modes,
                          PipelineFailure,
