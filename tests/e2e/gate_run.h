@@ -20,9 +20,10 @@ inline nlohmann::json Summary(const Gate& gate,
                               const std::filesystem::path& data,
                               const std::string& mode) {
   const ScratchFolder folder;
-  const Outcome outcome = RunProgram(folder,
-                                     "run " + Quoted(data) + " " + gate.settings + " --mode " +
-                                         mode + " --imu off --quiet --out " + Quoted(folder / "run"));
+  const Outcome outcome =
+      RunProgram(folder,
+                 "run " + Quoted(data) + " " + gate.settings + " --mode " + mode +
+                     " --imu off --quiet --out " + Quoted(folder / "run"));
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   if (outcome.code != 0) return nullptr;
   ExpectLandmarksFit(folder / "run/map.plb");

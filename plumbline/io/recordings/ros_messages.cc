@@ -96,7 +96,9 @@ std::optional<ImageMessage> ParseRosImage(bool cdr, bool compressed, ByteSpan by
     image.step = fields.U32();
   }
   image.data = fields.Bytes();
-  return fields.ok() ? std::optional(std::move(image)) : std::nullopt;
+  // Zeros alone are the fields of an empty image.
+  if (!fields.ok() || image.data.empty()) return std::nullopt;
+  return image;
 }
 
 std::optional<CalibrationMessage> ParseRosCalibration(bool cdr, ByteSpan bytes) {

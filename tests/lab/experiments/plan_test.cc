@@ -79,7 +79,9 @@ TEST(Plan, RunKHasSeedKAndBeginsAtFrameKMinusOne) {
                           "--set",
                           "slam.mode=inline",
                           "--set",
-                          "features.lines=false"));
+                          "features.lines=false",
+                          "--imu",
+                          "off"));
 }
 
 TEST(Plan, AReversedVariantPlaysASequenceThatIsWrittenForIt) {
