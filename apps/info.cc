@@ -49,7 +49,9 @@ CommandSyntax InfoSyntax() {
        {"--rotate", "auto|none|90|180|270", kRotateHelp},
        {"--max-width", "PIXELS", kMaxWidthHelp},
        {"--view-angle", "DEGREES", kViewAngleHelp},
-       {"--mask", "FILE|TOPIC", "black is not used; once for each camera: tells the share"},
+       {"--mask",
+        "FILE|TOPIC",
+        "black is not used: tells the share; may be repeated (left, right)"},
        {"--check", "", "decode every image and name those that cannot be used"}}};
 }
 

@@ -5,6 +5,7 @@
 #include "plumbline/io/export/keyframe_images.h"
 #include "plumbline/io/map_file/map_io.h"
 #include "plumbline/io/trajectory_io.h"
+#include "plumbline/report/run_folder.h"
 #include "plumbline/slam/saved_options.h"
 
 #include "apps/chosen_map.h"
@@ -15,6 +16,7 @@
 #include "apps/map_commands.h"
 #include "apps/program_methods.h"
 #include "apps/stop_signal.h"
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -110,6 +112,7 @@ ExportRequest ReadExportRequest(const CommandLine& line) {
   CheckExport(request.format, request.images.has_value(), request.every, request.undistort);
   const std::filesystem::path read = line.Positional(0);
   CheckOutput("--out", request.out, {&read, 1}, KindOfExport(request.format));
+  if (request.images) CheckApart(request.out, std::array{RunInput{*request.images}});
   return request;
 }
 

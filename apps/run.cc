@@ -248,7 +248,12 @@ std::unique_ptr<Dataset> OpenRecorded(const CommandLine& line, const SavedAtlas*
   try {
     DatasetOptions options = ReadDatasetOptions(line);
     auto dataset = OpenDataset(line.Positional(0), options);
-    if (map == nullptr || options.view_angle_deg) return dataset;
+    if (map == nullptr) return dataset;
+    if (const auto difference = ViewAngleDifference(map->context.camera, dataset->calibration())) {
+      throw InputError(line.Value("--map").value() +
+                       ": expected a map of the same rectified camera, found " + *difference);
+    }
+    if (options.view_angle_deg) return dataset;
     options.view_angle_deg = ViewAngleOfMap(map->context.camera, dataset->calibration());
     if (!options.view_angle_deg) return dataset;
     Say(fmt::format("the images are cut out as for the map: --view-angle {:g}",

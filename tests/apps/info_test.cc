@@ -47,6 +47,23 @@ TEST(Info, TellsThatTheRateIsMissing) {
   EXPECT_THAT(out, HasSubstr("note          the frame rate is not known; "));
 }
 
+// A second one is of the right camera, which there is none of.
+TEST(Info, TakesAMaskForEachCamera) {
+  const ScratchFolder folder;
+  folder.Write("camera.yaml", "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrate_hz: 3\n");
+  folder.Write("0.pgm", "P5\n8 6\n255\n" + std::string(48, 'a'));
+  const std::string mask =
+      folder
+          .Write("masks/left.pgm", "P5\n8 6\n255\n" + std::string(24, '\0') + std::string(24, 'a'))
+          .string();
+  const std::string data = folder.path().string();
+  EXPECT_THAT(Info({data, "--mask", mask}), HasSubstr("leaves out 50 % of the image"));
+  EXPECT_THAT(MessageOf([&] {
+                InfoCommand(std::vector<std::string>{data, "--mask", mask, "--mask", mask});
+              }),
+              HasSubstr("expected at most 1 mask, one for each camera, found 2"));
+}
+
 TEST(Info, TellsHowImagesAreTurnedAndReduced) {
   const ScratchFolder folder;
   folder.Write("camera.yaml", "size: [80, 60]\nintrinsics: [50, 51, 40, 30]\nrate_hz: 3\n");

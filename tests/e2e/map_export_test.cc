@@ -478,6 +478,15 @@ TEST(MapExport, FindsTheViewAngleOfTheRun) {
                           sequence + arguments + " --out " + Quoted(folder / "data"));
   };
   ExpectRefusal(export_with(" --view-angle 45"), "view angles of 55 and 45 degrees");
+  ExpectRefusal(RunProgram(folder,
+                           "run " + sequence + " --view-angle 45 --max-width 360 --map " +
+                               Quoted(folder / "run/map.plb") + " --out " + Quoted(folder / "on")),
+                "map.plb: expected a map of the same rectified camera, found view angles of 55 and "
+                "45 degrees");
+  ExpectRefusal(RunProgram(folder,
+                           "map export " + Quoted(folder / "run/map.plb") +
+                               " --to colmap --images " + sequence + " --out " + sequence + "/exp"),
+                "which is read; choose another folder");
   const Outcome outcome = export_with("");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const ColmapModel model = ReadColmapText(folder / "data/sparse/0");

@@ -163,8 +163,7 @@ TEST(PreparedDataset, FramesMayHaveMasksOfTheirOwn) {
   const auto own = OpenDataset(folder.path());
   EXPECT_EQ(own->Read(0)->left_mask->at(4, 0), 0);
   EXPECT_EQ(own->Read(0)->left_mask->at(5, 0), 255);
-  EXPECT_THAT(own->info().notes,
-              testing::Contains(HasSubstr("images of the data have a mask in ")));
+  EXPECT_THAT(own->info().notes, testing::Contains(HasSubstr("images of the data has a mask in ")));
   const auto both = OpenDataset(folder.path(), {.masks = {mask}});
   EXPECT_EQ(both->Read(0)->left_mask->at(4, 0), 0);
   folder.Write("mask0/1.png", MaskOf(8, 6, 1));
@@ -210,9 +209,13 @@ TEST(PreparedDataset, TellsWhatMasksOfFramesLeaveOut) {
   EXPECT_THAT(notes(MaskOf(8, 6, 2)),
               testing::Contains(
                   testing::AllOf(HasSubstr("1 of the "),
-                                 HasSubstr(" images of the data have a mask in "),
-                                 testing::EndsWith("mask0; they leave out 25 % of the image"))));
-  EXPECT_THAT(notes(MaskOf(8, 6, 8)), testing::Contains(HasSubstr("100 % of the image; are they")));
+                                 HasSubstr(" images of the data has a mask in "),
+                                 testing::EndsWith("mask0; it leaves out 25 % of the image"))));
+  EXPECT_THAT(notes(MaskOf(8, 6, 8)), testing::Contains(HasSubstr("100 % of the image; is it")));
+  folder.Write("mav0/mask0/1.png", MaskOf(8, 6, 4));
+  EXPECT_THAT(OpenDataset(folder.path(), {.format = DatasetFormat::kTum})->info().notes,
+              testing::Contains(HasSubstr("mav0/mask0 is not used, since there is ")));
+  std::filesystem::remove_all(folder / "mav0");
   std::filesystem::remove_all(folder / "mask0");
   for (const char* name : {"mask0.png", "mask0"}) {
     folder.Write(name, MaskOf(8, 6, 2));
@@ -245,6 +248,7 @@ TEST(PreparedDataset, SaysWhatIsWrongWithAMask) {
   EXPECT_THAT(message({folder.Write("wide.png", MaskOf(9, 6, 1)).string()}),
               HasSubstr("wide.png: expected a mask of 8x6 pixels as the images, found 9x6"));
   EXPECT_THAT(message({(folder / "none.png").string()}), HasSubstr("none.png: no such file"));
+  EXPECT_THAT(message({"/people/mask"}), HasSubstr("no such file, nor are there topics"));
   EXPECT_THAT(message({folder.Write("text.png", "text").string()}), HasSubstr("text.png: "));
   const std::string mask = folder.Write("mask.png", MaskOf(8, 6, 3)).string();
   EXPECT_THAT(message({mask, mask}),

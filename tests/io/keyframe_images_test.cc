@@ -110,7 +110,7 @@ TEST(KeyFrameImages, AreCutOutAsTheRunDid) {
               HasSubstr("found another one: view angles of 50 and 40 degrees"));
   const SavedMap whole = MapAt({MovingPoster::StampNs(1)}, MovingPoster::MakeCalibration());
   EXPECT_THAT(MessageOf([&] { KeyFrameImages(sequence, {.view_angle_deg = 40}, whole); }),
-              HasSubstr("cut out as by default, not with a view angle of 40 degrees"));
+              HasSubstr("cut out as by default and with a view angle of 40 degrees"));
 }
 
 TEST(KeyFrameImages, NamesWhatDoesNotFit) {

@@ -35,5 +35,21 @@ TEST(ViewAngleOfMap, FindsTheAngleOfTheRun) {
   EXPECT_FALSE(ViewAngleOfMap(other, calibration)) << "another camera";
 }
 
+TEST(ViewAngleDifference, NamesTheAnglesOfMapAndData) {
+  const Calibration calibration = FisheyeCalibration();
+  Calibration narrow = calibration, wide = calibration;
+  narrow.view_angle_deg = 60;
+  wide.view_angle_deg = 75;
+  const RectifiedCamera of_wide = Rectifier(wide).camera();
+  EXPECT_EQ(ViewAngleDifference(of_wide, narrow), "view angles of 75 and 60 degrees");
+  EXPECT_EQ(ViewAngleDifference(Rectifier(calibration).camera(), narrow),
+            "images cut out as by default and with a view angle of 60 degrees");
+  EXPECT_FALSE(ViewAngleDifference(of_wide, wide));
+  EXPECT_FALSE(ViewAngleDifference(of_wide, calibration)) << "no angle is asked for";
+  RectifiedCamera other = of_wide;
+  other.fx = other.fy = 200;
+  EXPECT_FALSE(ViewAngleDifference(other, narrow)) << "another camera";
+}
+
 }  // namespace
 }  // namespace plumbline

@@ -7,6 +7,7 @@
 #include "tests/io/recorded_bag.h"
 #include "tests/io/scratch_folder.h"
 #include "tests/support/mcap_writer.h"
+#include "tests/support/rosbag2_writer.h"
 #include <bit>
 #include <limits>
 #include <map>
@@ -23,6 +24,7 @@ namespace {
 
 using testing::Contains;
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -62,12 +64,19 @@ TEST(Recordings, TakeMasksByTopic) {
   EXPECT_EQ(dataset->Read(0)->left_mask->at(3, 3), 255);
   EXPECT_EQ(dataset->Read(1)->left_mask, nullptr);
   EXPECT_EQ(dataset->Read(2)->left_mask->at(3, 3), 0);
+  EXPECT_THAT(dataset->info().notes, Contains("topics: /c/image, /people/mask"));
   EXPECT_THAT(
       dataset->info().notes,
       Contains(HasSubstr("2 of the 3 images of the data have a mask of /people/mask; they leave "
                          "out 50 % of the image")));
   EXPECT_THAT(MessageOf([&] { OpenDataset(file, {.masks = {"/nobody"}}); }),
               HasSubstr("expected an image file or a topic as a mask, found '/nobody'; topics: "));
+  EXPECT_THAT(MessageOf([&] {
+                OpenDataset(file, {.masks = {"/people/mask", "/people/mask"}});
+              }),
+              HasSubstr("expected a topic of masks for each camera, found '/people/mask' twice"));
+  EXPECT_THAT(MessageOf([&] { OpenDataset(file, {.masks = {"/c/camera_info"}}); }),
+              HasSubstr("/c/camera_info: expected images as masks, found sensor_msgs/CameraInfo"));
 }
 
 TEST(Recordings, TakeMasksThatAreCompressedOrBroken) {
@@ -88,7 +97,24 @@ TEST(Recordings, TakeMasksThatAreCompressedOrBroken) {
   ASSERT_TRUE(dataset->Read(1)) << "a mask of another size costs no frame";
   EXPECT_EQ(dataset->Read(1)->left_mask, nullptr);
   EXPECT_THAT(dataset->info().notes,
-              Contains(HasSubstr("; 1 cannot be used, and their images are used whole: ")));
+              Contains(EndsWith("; 1 cannot be used, and its image is used whole: " +
+                                (folder / "x.bag").string() +
+                                ": /people/mask/compressed: expected a mask of 8x6 pixels as the "
+                                "images, found 9x6")));
+}
+
+TEST(Recordings, TellThatNoMessageOfATopicOfMasksCanBeRead) {
+  const ScratchFolder folder;
+  const TestImage image{kSecond, "mono8", 8, 6, 8, std::string(48, 'a')};
+  {
+    Rosbag2Writer writer(folder / "x.db3");
+    writer.Add("/c/image", "sensor_msgs/msg/Image", 1, RawImageMessage(Dialect::kCdr, image));
+    writer.Add("/people/mask", "sensor_msgs/msg/Image", 2, "damaged");
+  }
+  EXPECT_THAT(
+      MessageOf([&] { OpenDataset(folder / "x.db3", {.masks = {"/people/mask"}}); }),
+      EndsWith("x.db3: /people/mask: expected images as masks, found no message that can be read "
+               "as sensor_msgs/msg/Image"));
 }
 
 TEST(Recordings, ReadsMcapOfAllDialects) {

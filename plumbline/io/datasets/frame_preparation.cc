@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -56,13 +58,12 @@ GrayImage MaskOfCamera(const std::string& path, const Camera& camera) {
   const ImageSize size = SizeOfImages(camera);
   const Expected<GrayImage, ImageFailure> mask = ReadMask(path, size);
   if (mask) return *mask;
-  if (!mask.error().other_size) throw InputError(path + ": " + mask.error().why);
-  throw InputError(fmt::format("{}: expected a mask of {}x{} pixels as the images, found {}x{}",
-                               path,
-                               size.width,
-                               size.height,
-                               mask.error().other_size->width,
-                               mask.error().other_size->height));
+  std::error_code error;
+  const bool like_topic = path.starts_with('/') && !std::filesystem::path(path).has_extension();
+  if (like_topic && !std::filesystem::exists(path, error)) {
+    throw InputError(path + ": no such file, nor are there topics, which bags and MCAP files have");
+  }
+  throw InputError(path + ": " + MaskFailureOf(mask.error(), size).why);
 }
 
 class PreparedDataset : public Dataset {

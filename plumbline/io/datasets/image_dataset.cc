@@ -166,12 +166,21 @@ std::string NameOf(const fs::path& path) {
   return (clean.has_filename() ? clean : clean.parent_path()).filename().string();
 }
 
-// Returns the folder of masks of this name of a data set, if there is one. Notes a file of this
-// name.
+// Returns the folder of masks of this name of a data set, if there is one: that in mav0 if there is
+// none beside it. Notes a file of this name, and the other folder of two.
 std::optional<fs::path> MaskFolder(const std::string& name, DatasetInfo& info) {
   std::error_code error;
+  std::optional<fs::path> found;
   for (const fs::path& parent : {info.path, info.path / "mav0"}) {
-    if (fs::is_directory(parent / name, error)) return parent / name;
+    if (fs::is_directory(parent / name, error)) {
+      if (found) {
+        info.notes.push_back(fmt::format(
+            "{} is not used, since there is {}", (parent / name).string(), found->string()));
+      } else {
+        found = parent / name;
+      }
+    }
+    if (found) continue;
     for (const fs::path& file : {parent / name, parent / (name + ".png")}) {
       if (!fs::is_regular_file(file, error)) continue;
       info.notes.push_back(
@@ -181,7 +190,7 @@ std::optional<fs::path> MaskFolder(const std::string& name, DatasetInfo& info) {
                       file.string()));
     }
   }
-  return std::nullopt;
+  return found;
 }
 
 // Finds the masks of the frames of one camera, and notes what they are.
@@ -207,13 +216,8 @@ void FindMasks(const char* name,
       frame.*mask = file;
       found.push_back(file);
     } else if (bad++ == 0) {
-      first_fault = size ? fmt::format("expected a mask of {}x{} pixels as the images, found {}x{}",
-                                       wanted->width,
-                                       wanted->height,
-                                       size->width,
-                                       size->height)
-                         : size.error().why;
-      first_fault = fmt::format("{}: {}", file.string(), first_fault);
+      const ImageFailure fault = size ? ImageFailure{file, {}, *size} : size.error();
+      first_fault = fmt::format("{}: {}", file.string(), MaskFailureOf(fault, wanted).why);
     }
   }
   if (bad > 0) {
@@ -256,19 +260,29 @@ void NoteMasks(const FoundMasks& masks,
       first_fault = fmt::format("{}: {}", mask.error().path.string(), mask.error().why);
     }
   }
-  std::string note = fmt::format(
-      "{} of the {} images of the data have a mask {}", masks.masks, masks.images, masks.place);
+  std::string note = fmt::format("{} of the {} images of the data {} a mask {}",
+                                 masks.masks,
+                                 masks.images,
+                                 masks.masks == 1 ? "has" : "have",
+                                 masks.place);
   const std::string of = looked == masks.masks ? "" : fmt::format(" (in {} of them)", looked);
   if (looked > bad) {
     share /= static_cast<double>(looked - bad);
-    note += fmt::format("; they leave out {:.3g} % of the image{}{}",
+    const bool one = masks.masks == 1;
+    note += fmt::format("; {} {:.3g} % of the image{}{}",
+                        one ? "it leaves out" : "they leave out",
                         100 * share,
                         of,
-                        share > 0.5 ? "; are they inverted? What is black is not used" : "");
+                        share <= 0.5 ? ""
+                        : one        ? "; is it inverted? What is black is not used"
+                                     : "; are they inverted? What is black is not used");
   }
   if (bad > 0) {
-    note += fmt::format(
-        "; {} cannot be used{}, and their images are used whole: {}", bad, of, first_fault);
+    note += fmt::format("; {} cannot be used{}, and {} used whole: {}",
+                        bad,
+                        of,
+                        bad == 1 ? "its image is" : "their images are",
+                        first_fault);
   }
   info.notes.push_back(std::move(note));
 }
@@ -298,6 +312,16 @@ void CheckSecondList(const fs::path& list, const char* images) {
                   "mono it is not needed",
                   list.string(),
                   images));
+}
+
+ImageFailure MaskFailureOf(ImageFailure failure, std::optional<ImageSize> wanted) {
+  if (!failure.other_size || !wanted) return failure;
+  failure.why = fmt::format("expected a mask of {}x{} pixels as the images, found {}x{}",
+                            wanted->width,
+                            wanted->height,
+                            failure.other_size->width,
+                            failure.other_size->height);
+  return failure;
 }
 
 ImageFailure FailureOf(ImageFailure failure, ImageSize wanted) {

@@ -73,6 +73,9 @@ void NoteMasks(const FoundMasks& masks,
 // reason tells both.
 ImageFailure FailureOf(ImageFailure failure, ImageSize wanted);
 
+// The same of a mask, whose size is to be that of its images.
+ImageFailure MaskFailureOf(ImageFailure failure, std::optional<ImageSize> wanted);
+
 // Reads frames until one can be read, so that a calibration of another size is detected before the
 // run. Throws InputError if none can be read, or if the first ten images that can be decoded have
 // another size than the calibration.

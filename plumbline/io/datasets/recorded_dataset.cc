@@ -186,12 +186,41 @@ std::vector<FrameMessages> Join(const RecordedTopic& left,
   return frames;
 }
 
+// Fails for a mask that is neither a file nor a topic of images that can be read.
+[[noreturn]] void FailMask(const std::string& mask, const RecordedTopics& topics) {
+  const std::string file = topics.file->path().string();
+  for (const Channel& channel : topics.file->channels()) {
+    if (channel.topic != mask && channel.topic != mask + "/compressed") continue;
+    const std::optional<MessageForm> form = FormOf(channel);
+    const bool of_images =
+        form && form->kind != MessageKind::kCalibration && form->kind != MessageKind::kInertial;
+    throw InputError(fmt::format("{}: {}: expected images as masks, found {}{}",
+                                 file,
+                                 Printable(channel.topic),
+                                 of_images ? "no message that can be read as " : "",
+                                 Printable(channel.type)));
+  }
+  std::vector<const RecordedTopic*> all;
+  for (const RecordedTopic& topic : topics.images) all.push_back(&topic);
+  throw InputError(
+      fmt::format("{}: expected an image file or a topic as a mask, found {}; topics: "
+                  "{}",
+                  file,
+                  InQuotes(mask),
+                  ListOfTopics(all)));
+}
+
 // Takes the topics that are named as masks out of the others; the masks that are files stay empty.
 std::vector<std::optional<RecordedTopic>> TakeMaskTopics(const std::vector<std::string>& masks,
                                                          RecordedTopics& topics) {
   std::vector<std::optional<RecordedTopic>> taken(masks.size());
   std::error_code error;
   for (std::size_t i = 0; i < masks.size(); ++i) {
+    if (i > 0 && taken[i - 1] && masks[i] == masks[i - 1]) {
+      throw InputError(fmt::format("{}: expected a topic of masks for each camera, found {} twice",
+                                   topics.file->path().string(),
+                                   InQuotes(masks[i])));
+    }
     const auto found =
         std::find_if(topics.images.begin(), topics.images.end(), [&](const RecordedTopic& topic) {
           return topic.name == masks[i] || topic.name == masks[i] + "/compressed";
@@ -200,13 +229,7 @@ std::vector<std::optional<RecordedTopic>> TakeMaskTopics(const std::vector<std::
       taken[i] = std::move(*found);
       topics.images.erase(found);
     } else if (!fs::is_regular_file(masks[i], error)) {
-      std::vector<const RecordedTopic*> all;
-      for (const RecordedTopic& topic : topics.images) all.push_back(&topic);
-      throw InputError(
-          fmt::format("{}: expected an image file or a topic as a mask, found {}; topics: {}",
-                      topics.file->path().string(),
-                      InQuotes(masks[i]),
-                      ListOfTopics(all)));
+      FailMask(masks[i], topics);
     }
   }
   return taken;
@@ -248,8 +271,11 @@ void AddMasks(const Recording& file,
     }
     NoteMasks(
         {places.size(), frames.size(), "of " + Printable(masks[camera]->name)},
-        [&](std::size_t i) {
-          return ReadMaskMessage(file, places[i], SizeOfCamera(info, camera == 1));
+        [&](std::size_t i) -> Expected<GrayImage, ImageFailure> {
+          const std::optional<ImageSize> size = SizeOfCamera(info, camera == 1);
+          Expected<GrayImage, ImageFailure> mask = ReadMaskMessage(file, places[i], size);
+          if (!mask) return MaskFailureOf(mask.error(), size);
+          return mask;
         },
         info);
   }
@@ -430,6 +456,9 @@ std::unique_ptr<Dataset> OpenRecording(const fs::path& path,
     used.push_back(info.sensor == SensorKind::kStereo ? chosen.right : chosen.depth);
     frames = Join(*chosen.left, *used.back(), info);
     if (info.sensor == SensorKind::kRgbd) NoteFrames(*chosen.left, *chosen.depth, info);
+  }
+  for (const std::optional<RecordedTopic>& mask : masks) {
+    if (mask) used.push_back(&*mask);
   }
   NoteTopics(topics, used, info);
   AddMasks(*topics.file, masks, frames, info);

@@ -201,11 +201,9 @@ std::string KeyFrameImages::DifferenceAsStored(const std::filesystem::path& path
   DatasetOptions options = given;
   options.view_angle_deg.reset();
   if (given.view_angle_deg && !Open(path, options, saved)) {
-    const std::optional<double>& of_map = dataset_->calibration().view_angle_deg;
-    return of_map
-               ? fmt::format("view angles of {:g} and {:g} degrees", *of_map, *given.view_angle_deg)
-               : fmt::format("cut out as by default, not with a view angle of {:g} degrees",
-                             *given.view_angle_deg);
+    Calibration asked = dataset_->calibration();
+    asked.view_angle_deg = given.view_angle_deg;
+    return ViewAngleDifference(saved.camera, asked).value_or(difference);
   }
   options = AsUsedFor(saved, given);
   dataset_ = OpenDataset(path, options);

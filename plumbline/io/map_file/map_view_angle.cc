@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace plumbline {
 namespace {
 
@@ -33,6 +35,19 @@ std::optional<double> ViewAngleOfMap(const RectifiedCamera& of_map,
     if (!CalibrationFault(cut) && GivesCamera(cut, of_map)) return degrees;
   }
   return std::nullopt;
+}
+
+std::optional<std::string> ViewAngleDifference(const RectifiedCamera& of_map,
+                                               Calibration calibration) {
+  if (!calibration.view_angle_deg || GivesCamera(calibration, of_map)) return std::nullopt;
+  const double angle = *calibration.view_angle_deg;
+  calibration.view_angle_deg.reset();
+  if (GivesCamera(calibration, of_map)) {
+    return fmt::format("images cut out as by default and with a view angle of {:g} degrees", angle);
+  }
+  const std::optional<double> of_run = ViewAngleOfMap(of_map, calibration);
+  if (!of_run) return std::nullopt;
+  return fmt::format("view angles of {:g} and {:g} degrees", *of_run, angle);
 }
 
 }  // namespace plumbline
