@@ -30,6 +30,8 @@ class InventedTransport : public Transport {
     receivers_.emplace(topic.name, std::move(receive));
   }
   void Repeat(double, std::function<void()>) override {}
+  void After(double, std::function<void()>) override {}
+  bool HasPublisher(const std::string&) const override { return false; }
   void OfferTrigger(const std::string&, std::function<std::string()>) override {}
   std::unique_ptr<Publication> Advertise(const TopicSettings&) override { return nullptr; }
   void Log(Severity, const std::string& line) override {

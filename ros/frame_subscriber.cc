@@ -68,11 +68,14 @@ void FrameSubscriber::SubscribeImages(const ImageTopic& topic,
   settings.type = topic.type;
   settings.queue_size = parameters_.queue_size;
   settings.sensor_data = true;
-  transport_.Subscribe(settings, [this, settings, &topic, use = std::move(use)](Bytes bytes) {
-    const auto image = ParseImage(topic.form, bytes);
-    if (!image) return log_.Refuse(settings, bytes.size());
-    use(*image, std::move(bytes));  // the image points into the same bytes
-  });
+  bool& came = awaited_[settings.name];
+  transport_.Subscribe(settings,
+                       [this, settings, &topic, &came, use = std::move(use)](Bytes bytes) {
+                         const auto image = ParseImage(topic.form, bytes);
+                         if (!image) return log_.Refuse(settings, bytes.size());
+                         came = true;
+                         use(*image, std::move(bytes));  // the image points into the same bytes
+                       });
 }
 
 void FrameSubscriber::SubscribeInfo(const std::string& name, std::optional<TopicCamera>& camera) {
@@ -80,9 +83,11 @@ void FrameSubscriber::SubscribeInfo(const std::string& name, std::optional<Topic
   settings.name = transport_.Resolve(name);
   settings.type = "sensor_msgs/CameraInfo";
   settings.sensor_data = true;
-  transport_.Subscribe(settings, [this, settings, &camera](const Bytes& bytes) {
+  bool& came = awaited_[settings.name];
+  transport_.Subscribe(settings, [this, settings, &camera, &came](const Bytes& bytes) {
     const auto message = ParseRosCalibration(transport_.UsesCdr(), bytes);
     if (!message) return log_.Refuse(settings, bytes.size());
+    came = true;
     camera = TopicCamera{settings.name, *message};
   });
 }

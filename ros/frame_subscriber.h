@@ -9,6 +9,7 @@
 #include "transport.h"
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -46,6 +47,9 @@ class FrameSubscriber {
   // What camera_info said of the cameras; nullopt until it has. The second one with stereo alone.
   using Cameras = std::pair<TopicCamera, std::optional<TopicCamera>>;
   std::optional<Cameras> FindCameras() const;
+  // The topics of images, and of the cameras where no file tells of them; whether a message that
+  // can be used has come.
+  const std::map<std::string, bool>& awaited() const { return awaited_; }
   // The resolved name of the first image topic, without the name of a transport of images.
   const std::string& topic() const { return left_.name; }
 
@@ -68,6 +72,7 @@ class FrameSubscriber {
   const NodeParameters& parameters_;
   Take take_;
   ImageTopic left_, second_;
+  std::map<std::string, bool> awaited_;
   std::optional<TopicCamera> left_camera_, right_camera_;
   std::optional<FramePairs> pairs_;
 };

@@ -27,7 +27,9 @@ SlamOptions ReadOptions(const LiveSlamSettings& settings) {
   OptionTable table(options);
   table.Set("slam.mode=live");
   if (!settings.config.empty()) table.LoadFile(settings.config);
-  for (const std::string& option : settings.options) table.Set(option);
+  for (const OptionSetting& option : settings.options) {
+    table.Set(option.key, option.text, option.where);
+  }
   CheckOptions(options);
   return options;
 }

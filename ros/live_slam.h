@@ -26,14 +26,19 @@
 
 namespace plumbline::ros_node {
 
+// An option, and how messages name it: "node.yaml:4: options.features.line_count".
+struct OptionSetting {
+  std::string key, text, where;
+};
+
 struct LiveSlamSettings {
   std::string sensor = "mono";  // mono, stereo, rgbd
   std::string camera;           // a file, or the name of a built-in camera; empty: SetCameras
   // Whether the images are rectified (SetCameras); not set: as the name of their topic says.
   std::optional<bool> rectified;
-  std::string config;                // a file of options; empty: none
-  std::vector<std::string> options;  // "features.line_count=100", applied after the file
-  std::string imu = "off";           // off, auto or a file (FindInertialCalibration)
+  std::string config;                  // a file of options; empty: none
+  std::vector<OptionSetting> options;  // applied after the file
+  std::string imu = "off";             // off, auto or a file (FindInertialCalibration)
 };
 
 // What came of a frame.

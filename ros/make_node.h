@@ -10,10 +10,9 @@
 namespace plumbline::ros_node {
 
 // Makes the node, which works as long as it is held; the transport must outlive it. Throws
-// InputError for wrong parameters, whose names get `prefix` in messages, and a map that cannot be
-// loaded.
+// InputError for wrong parameters, named as `names` says, and a map that cannot be loaded.
 std::shared_ptr<void> MakeNode(Transport& transport,
                                const Parameters& parameters,
-                               const std::string& prefix);
+                               const ParameterNames& names);
 
 }  // namespace plumbline::ros_node

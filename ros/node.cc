@@ -7,8 +7,14 @@
 #include "make_node.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace plumbline::ros_node {
+namespace {
+
+constexpr double kPatience = 5;  // s without a frame
+
+}  // namespace
 
 Node::Node(Transport& transport, const NodeParameters& parameters)
     : parameters_(parameters),
@@ -31,6 +37,7 @@ Node::Node(Transport& transport, const NodeParameters& parameters)
     Warn(slam_.Load(parameters_.map_file, parameters_.localize));
   }
   OfferServices(transport);
+  TellTopics(transport);
   transport.Repeat(parameters_.map_period, [this] { PublishMap(); });
 }
 
@@ -120,6 +127,28 @@ void Node::PublishMap() {
       [this, header](const MapView& map) { maps_.Publish(map, *base_from_camera_, header); });
 }
 
+void Node::TellTopics(Transport& transport) {
+  std::vector<std::string> topics;
+  for (const auto& [topic, came] : frames_.awaited()) topics.push_back(topic);
+  log_.Say(Severity::kInfo, fmt::format("waits for frames of {}", fmt::join(topics, ", ")));
+  transport.After(kPatience, [this, &transport] { TellSilence(transport); });
+}
+
+void Node::TellSilence(const Transport& transport) {
+  if (frames_fed_ > 0) return;
+  std::vector<std::string> missing;
+  for (const auto& [topic, came] : frames_.awaited()) {
+    if (came) continue;
+    missing.push_back(topic + (transport.HasPublisher(topic) ? " has no message that can be used"
+                                                             : " has no publisher"));
+  }
+  // Of one camera there are frames, and what is wrong with them was said.
+  if (missing.empty() && parameters_.IsMono()) return;
+  if (missing.empty()) missing.emplace_back("no two images have fitting stamps (parameter sync)");
+  log_.Say(Severity::kWarning,
+           fmt::format("no frame in {:g} s: {}", kPatience, fmt::join(missing, ", ")));
+}
+
 const std::string& Node::MapFile() const {
   if (parameters_.map_file.empty()) throw InputError("map_file: expected a file, found none");
   return parameters_.map_file;
@@ -134,8 +163,8 @@ std::string Node::LoadMaps(bool localize) {
 
 std::shared_ptr<void> MakeNode(Transport& transport,
                                const Parameters& parameters,
-                               const std::string& prefix) {
-  return std::make_shared<Node>(transport, ReadParameters(parameters, prefix));
+                               const ParameterNames& names) {
+  return std::make_shared<Node>(transport, ReadParameters(parameters, names));
 }
 
 }  // namespace plumbline::ros_node

@@ -35,6 +35,9 @@ class Node {
   // Whether all that the first frame needs is known by now.
   bool GetReady(const ImageMessage& image);
   void PublishMap();
+  // What the node waits for: at the start, and once more if no frame came for a while.
+  void TellTopics(Transport& transport);
+  void TellSilence(const Transport& transport);
   void OfferServices(Transport& transport);
   const std::string& MapFile() const;
   std::string LoadMaps(bool localize);

@@ -35,8 +35,8 @@ std::string TextOf(const ParameterValue& value) {
 // Reads parameters by name, and remembers the names.
 class Reader {
  public:
-  Reader(const Parameters& parameters, const std::string& prefix)
-      : parameters_(parameters), prefix_(prefix) {}
+  Reader(const Parameters& parameters, const ParameterNames& shown)
+      : parameters_(parameters), shown_(shown), names_(shown.others.begin(), shown.others.end()) {}
 
   template <class T>
   void Read(const std::string& name, T& value) {
@@ -73,19 +73,20 @@ class Reader {
     return value == second;
   }
   // The options of SLAM: options.features.line_count is features.line_count.
-  std::vector<std::string> ReadOptions() {
+  std::vector<OptionSetting> ReadOptions() {
     const std::string group(kOptions, std::string(kOptions).size() - 1);
     names_.insert(group);
     if (const auto whole = parameters_.find(group); whole != parameters_.end()) {
       Fail(group, "a group", NameOfType(whole->second));
     }
-    std::vector<std::string> options;
+    std::vector<OptionSetting> options;
     for (const auto& [name, value] : parameters_) {
       if (!name.starts_with(kOptions)) continue;
       if (std::holds_alternative<ListValue>(value)) {
         Fail(name, "a number, a truth value or a text", "a list");
       }
-      options.push_back(name.substr(std::string(kOptions).size()) + "=" + TextOf(value));
+      options.push_back(
+          {name.substr(std::string(kOptions).size()), TextOf(value), shown_.Shown(name)});
     }
     return options;
   }
@@ -94,22 +95,24 @@ class Reader {
   void CheckNames() const {
     for (const auto& [name, value] : parameters_) {
       if (names_.contains(name) || name.starts_with(kOptions)) continue;
-      throw InputError(fmt::format("{}{}: expected a parameter of this node ({})",
-                                   prefix_,
-                                   Printable(name),
-                                   fmt::join(names_, ", ")));
+      const std::vector<std::string> known(names_.begin(), names_.end());
+      const std::optional<std::string> nearest = NearestName(name, known);
+      throw InputError(fmt::format("{}: expected a parameter of this node ({}){}",
+                                   Printable(shown_.Shown(name)),
+                                   fmt::join(known, ", "),
+                                   nearest ? "; did you mean '" + *nearest + "'?" : ""));
     }
   }
 
   [[noreturn]] void Fail(const std::string& name,
                          const std::string& expected,
                          const std::string& found) const {
-    throw InputError(fmt::format("{}{}: expected {}, found {}", prefix_, name, expected, found));
+    throw InputError(fmt::format("{}: expected {}, found {}", shown_.Shown(name), expected, found));
   }
 
  private:
   const Parameters& parameters_;
-  const std::string& prefix_;
+  const ParameterNames& shown_;
   std::set<std::string> names_;
 };
 
@@ -127,9 +130,9 @@ void CheckTogether(const Reader& reader, const NodeParameters& p) {
 
 }  // namespace
 
-NodeParameters ReadParameters(const Parameters& parameters, const std::string& prefix) {
+NodeParameters ReadParameters(const Parameters& parameters, const ParameterNames& names) {
   NodeParameters p;
-  Reader reader(parameters, prefix);
+  Reader reader(parameters, names);
   reader.Read("sensor", p.slam.sensor);
   reader.Read("camera", p.slam.camera);
   reader.Read("rectified", p.slam.rectified);

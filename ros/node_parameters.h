@@ -27,7 +27,7 @@ struct NodeParameters {
 };
 
 // Reads all of them. Throws InputError for a parameter of another type, a value that makes no sense
-// and a name that is none, with what was expected and found; `prefix` stands before its name.
-NodeParameters ReadParameters(const Parameters& parameters, const std::string& prefix);
+// and a name that is none, with what was expected and found.
+NodeParameters ReadParameters(const Parameters& parameters, const ParameterNames& names);
 
 }  // namespace plumbline::ros_node

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "plumbline");
   try {
     Ros1Transport transport;
-    const auto node = MakeNode(transport, transport.ReadParameters(), "~");
+    const auto node = MakeNode(transport, transport.ReadParameters(), {"~"});
     ros::spin();
     return 0;
   } catch (const plumbline::InputError& error) {

@@ -180,6 +180,19 @@ void Ros1Transport::Repeat(double seconds, std::function<void()> work) {
   timers_.push_back(own_.createWallTimer(ros::WallDuration(seconds), call));
 }
 
+void Ros1Transport::After(double seconds, std::function<void()> work) {
+  const boost::function<void(const ros::WallTimerEvent&)> call =
+      [work = std::move(work)](const ros::WallTimerEvent&) { work(); };
+  timers_.push_back(own_.createWallTimer(ros::WallDuration(seconds), call, true));
+}
+
+bool Ros1Transport::HasPublisher(const std::string& topic) const {
+  for (const ros::Subscriber& subscriber : subscribers_) {
+    if (subscriber.getTopic() == topic && subscriber.getNumPublishers() > 0) return true;
+  }
+  return false;
+}
+
 void Ros1Transport::OfferTrigger(const std::string& name, std::function<std::string()> work) {
   using std_srvs::Trigger;
   const boost::function<bool(Trigger::Request&, Trigger::Response&)> answer =

@@ -24,6 +24,8 @@ class Ros1Transport : public Transport {
   std::string Resolve(const std::string& name) const override;
   void Subscribe(const TopicSettings& topic, Receive receive) override;
   void Repeat(double seconds, std::function<void()> work) override;
+  void After(double seconds, std::function<void()> work) override;
+  bool HasPublisher(const std::string& topic) const override;
   void OfferTrigger(const std::string& name, std::function<std::string()> work) override;
   std::unique_ptr<Publication> Advertise(const TopicSettings& topic) override;
   void Log(Severity severity, const std::string& line) override;

@@ -42,14 +42,18 @@ ParameterValue ValueOf(const YAML::Node& node) {
   return text;
 }
 
-void AddValues(const std::string& name, const YAML::Node& node, Parameters& parameters) {
+void AddValues(const std::string& name,
+               const YAML::Node& node,
+               const std::string& source,
+               Ros2Settings& settings) {
   if (!node.IsMap()) {
-    parameters[name] = ValueOf(node);
+    settings.parameters[name] = ValueOf(node);
+    settings.sources[name] = Where(source, node);
     return;
   }
   for (const auto& entry : node) {
     const std::string& key = entry.first.Scalar();
-    AddValues(name.empty() ? key : name + "." + key, entry.second, parameters);
+    AddValues(name.empty() ? key : name + "." + key, entry.second, source, settings);
   }
 }
 
@@ -85,17 +89,24 @@ std::uint32_t DomainOf(const std::string& text) {
   return domain;
 }
 
+bool IsLocalhostOnly(const std::string& text) {
+  if (text.empty() || text == "0" || text == "1") return text == "1";
+  throw InputError("ROS_LOCALHOST_ONLY: expected 0 or 1, found " + InQuotes(text));
+}
+
 // Sorts arguments by their kind, before names are known.
 struct Arguments {
   std::vector<std::pair<std::string, std::string>> names;
   std::vector<std::pair<bool, std::string>> parameters;  // whether it is a file; in order
+  std::vector<std::string> notes;
 
   explicit Arguments(std::span<const std::string> arguments) {
     for (std::size_t i = 0; i < arguments.size(); ++i) {
       const std::string& word = arguments[i];
       if (word == "--ros-args" || word == "--") continue;
       const bool is_name = word == "-r" || word == "--remap", is_file = word == "--params-file";
-      if (!is_name && !is_file && word != "-p" && word != "--param") {
+      const bool is_level = word == "--log-level";
+      if (!is_name && !is_file && !is_level && word != "-p" && word != "--param") {
         if (word.starts_with('-')) {
           throw InputError("arguments: expected -r, -p, --params-file or NAME:=NAME, found " +
                            InQuotes(word));
@@ -106,7 +117,9 @@ struct Arguments {
       if (++i == arguments.size()) {
         throw InputError("arguments: expected a value after " + word + ", found none");
       }
-      if (is_name) {
+      if (is_level) {
+        notes.push_back("--log-level " + Printable(arguments[i]) + " is not used");
+      } else if (is_name) {
         names.push_back(SplitAssignment(arguments[i]));
       } else {
         parameters.emplace_back(is_file, arguments[i]);
@@ -119,6 +132,9 @@ void ReadNames(const Arguments& arguments, Ros2Settings& settings) {
   for (const auto& [from, to] : arguments.names) {
     if (from == "__ns" && to == "/") continue;
     CheckName(to);
+    if (from == "__node" && to.find_first_of("/~") != std::string::npos) {
+      throw InputError("__node: expected a name of letters, digits and _, found " + InQuotes(to));
+    }
     if (from == "__node") settings.name = to;
     if (from == "__ns") settings.name_space = to.starts_with('/') ? to : "/" + to;
   }
@@ -131,10 +147,11 @@ void ReadNames(const Arguments& arguments, Ros2Settings& settings) {
 
 // Parameters that any node of ROS 2 has, and those of the transport; the others stay.
 void TakeOwnParameters(Ros2Settings& settings) {
+  const ParameterNames names{"", settings.sources};
   if (const auto found = settings.parameters.find("use_sim_time");
       found != settings.parameters.end()) {
     if (!std::holds_alternative<bool>(found->second)) {
-      throw InputError("use_sim_time: expected a truth value, found another one");
+      throw InputError(names.Shown("use_sim_time") + ": expected a truth value, found another one");
     }
     settings.use_sim_time = std::get<bool>(found->second);
     settings.parameters.erase(found);
@@ -143,7 +160,7 @@ void TakeOwnParameters(Ros2Settings& settings) {
   if (found == settings.parameters.end()) return;
   const auto* text = std::get_if<std::string>(&found->second);
   if (text == nullptr || (*text != "reliable" && *text != "best_effort")) {
-    throw InputError("reliability: expected best_effort or reliable, found " +
+    throw InputError(names.Shown("reliability") + ": expected best_effort or reliable, found " +
                      (text != nullptr ? Printable(*text) : "another value"));
   }
   settings.reliable = *text == "reliable";
@@ -164,10 +181,7 @@ std::string Ros2Settings::Resolve(const std::string& topic) const {
   return found != remappings.end() ? found->second : expanded;
 }
 
-void ReadParameterFile(const std::string& text,
-                       const std::string& source,
-                       const Ros2Settings& settings,
-                       Parameters& parameters) {
+void ReadParameterFile(const std::string& text, const std::string& source, Ros2Settings& settings) {
   const YAML::Node document = ParseYaml(text, source);
   if (!document.IsMap()) {
     throw InputError(Where(source, document) + ": expected groups named after nodes");
@@ -180,10 +194,14 @@ void ReadParameterFile(const std::string& text,
     const YAML::Node values = node.second.IsMap() ? node.second["ros__parameters"]
                                                   : YAML::Node(YAML::NodeType::Undefined);
     if (!values || !values.IsMap()) {
+      const bool is_list = values && values.IsSequence(), is_text = values && values.IsScalar();
       throw InputError(Where(source, node.first) + ": expected a group ros__parameters in " +
-                       InQuotes(name) + ", found none");
+                       InQuotes(name) + ", found " +
+                       (is_list   ? "a list"
+                        : is_text ? "a single value"
+                                  : "none"));
     }
-    AddValues("", values, parameters);
+    AddValues("", values, source, settings);
   }
 }
 
@@ -191,18 +209,20 @@ Ros2Settings ReadRos2Settings(std::span<const std::string> arguments,
                               const Ros2Environment& environment) {
   Ros2Settings settings;
   settings.domain = DomainOf(environment.domain_id);
-  settings.localhost_only = environment.localhost_only == "1";
+  settings.localhost_only = IsLocalhostOnly(environment.localhost_only);
   const bool is_old = environment.distro == "foxy" || environment.distro == "galactic" ||
                       environment.distro == "humble";
   if (is_old) settings.gid_size = 24;
   const Arguments sorted(arguments);
+  settings.notes = sorted.notes;
   ReadNames(sorted, settings);
   for (const auto& [is_file, text] : sorted.parameters) {
     if (is_file) {
-      ReadParameterFile(ReadInputFile(text), text, settings, settings.parameters);
+      ReadParameterFile(ReadInputFile(text), text, settings);
     } else {
       const auto [name, value] = SplitAssignment(text);
       settings.parameters[name] = ValueOf(ParseYaml(value, "-p " + name));
+      settings.sources.erase(name);
     }
   }
   TakeOwnParameters(settings);

@@ -41,7 +41,9 @@ int main(int argc, char** argv) {
         arguments,
         {Variable("ROS_DOMAIN_ID"), Variable("ROS_LOCALHOST_ONLY"), Variable("ROS_DISTRO")});
     Ros2Transport transport(settings);
-    const auto node = MakeNode(transport, settings.parameters, "");
+    for (const std::string& note : settings.notes) transport.Log(Severity::kInfo, note);
+    const auto node = MakeNode(
+        transport, settings.parameters, {"", settings.sources, {"reliability", "use_sim_time"}});
     transport.Run(plumbline::StopRequested);
     return 0;
   } catch (const plumbline::InputError& error) {

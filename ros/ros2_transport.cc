@@ -281,6 +281,24 @@ class Ros2Transport::Implementation {
     timers_.push_back({Now() + period, period, std::move(work)});
   }
 
+  void After(double seconds, std::function<void()> work) {
+    const auto delay =
+        std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    later_.push_back({Clock::now() + delay, delay, std::move(work)});
+  }
+
+  // Also of another QoS, which CheckQos tells.
+  bool HasPublisher(const std::string& topic) const {
+    for (const Subscription& subscription : subscriptions_) {
+      dds::SubscriptionMatchedStatus status;
+      if (subscription.topic != topic) continue;
+      const bool matched = subscription.reader->get_subscription_matched_status(status)() == kOk &&
+                           status.current_count > 0;
+      if (matched || subscription.has_other_qos) return true;
+    }
+    return false;
+  }
+
   void Run(const std::function<bool()>& stop) {
     Introduce();
     Repeat(kSecondsBetweenWarnings, [&] {
@@ -301,6 +319,7 @@ class Ros2Transport::Implementation {
         timer.next = now + timer.period;
         timer.work();
       }
+      DoWhatIsDue();
     }
     for (Subscription& subscription : subscriptions_) WarnOfLosses(subscription);
   }
@@ -312,12 +331,21 @@ class Ros2Transport::Implementation {
     Receive receive;
     Bytes bytes = {};
     std::int64_t lost = 0;  // not yet told
+    bool has_other_qos = false;
   };
   struct Timer {
     Clock::time_point next;
     Clock::duration period;
     std::function<void()> work;
   };
+
+  void DoWhatIsDue() {
+    const Clock::time_point now = Clock::now();
+    for (const Timer& timer : later_) {
+      if (timer.next <= now) timer.work();
+    }
+    std::erase_if(later_, [now](const Timer& timer) { return timer.next <= now; });
+  }
 
   dds::Topic* MakeTopic(const std::string& name, const std::string& type) {
     if (auto* known = dynamic_cast<dds::Topic*>(participant_->lookup_topicdescription(name))) {
@@ -334,10 +362,11 @@ class Ros2Transport::Implementation {
     }
   }
 
-  void CheckQos(const Subscription& subscription) {
+  void CheckQos(Subscription& subscription) {
     dds::RequestedIncompatibleQosStatus status;
     subscription.reader->get_requested_incompatible_qos_status(status);
     if (status.total_count_change == 0) return;
+    subscription.has_other_qos = true;
     log_.Say(Severity::kWarning,
              subscription.topic +
                  ": a publisher has another QoS, and nothing of it comes (parameter reliability: "
@@ -403,6 +432,7 @@ class Ros2Transport::Implementation {
   std::list<Subscription> subscriptions_;
   std::vector<dds::DataWriter*> writers_;
   std::vector<Timer> timers_;
+  std::vector<Timer> later_;    // called once, by the steady clock
   Clock::time_point sim_time_;  // of /clock; the beginning of time before it came
 };
 
@@ -419,6 +449,12 @@ void Ros2Transport::Subscribe(const TopicSettings& topic, Receive receive) {
 }
 void Ros2Transport::Repeat(double seconds, std::function<void()> work) {
   implementation_->Repeat(seconds, std::move(work));
+}
+void Ros2Transport::After(double seconds, std::function<void()> work) {
+  implementation_->After(seconds, std::move(work));
+}
+bool Ros2Transport::HasPublisher(const std::string& topic) const {
+  return implementation_->HasPublisher(topic);
 }
 void Ros2Transport::OfferTrigger(const std::string& name, std::function<std::string()> work) {
   implementation_->OfferTrigger(Resolve(name), std::move(work));

@@ -20,6 +20,18 @@ using ParameterValue = std::variant<bool, std::int64_t, double, std::string, Lis
 // Values by name; names in groups are joined by dots: "options.features.line_count".
 using Parameters = std::map<std::string, ParameterValue>;
 
+// How messages name parameters: "~sensor", "node.yaml:4: sensor".
+struct ParameterNames {
+  std::string prefix = {};                          // in front of each
+  std::map<std::string, std::string> sources = {};  // "node.yaml:4" of those of a file, by name
+  std::vector<std::string> others = {};             // that the transport reads itself
+
+  std::string Shown(const std::string& name) const {
+    const auto source = sources.find(name);
+    return (source != sources.end() ? source->second + ": " : "") + prefix + name;
+  }
+};
+
 enum class Severity { kInfo, kWarning, kError };
 
 // How a topic is carried.
@@ -54,6 +66,10 @@ class Transport {
   // Functions handed over are called in one thread, and not before the loop of the transport runs.
   virtual void Subscribe(const TopicSettings& topic, Receive receive) = 0;
   virtual void Repeat(double seconds, std::function<void()> work) = 0;
+  // Once, after so many seconds of the loop, whatever time is simulated.
+  virtual void After(double seconds, std::function<void()> work) = 0;
+  // Whether somebody publishes a topic that is subscribed (TopicSettings::name).
+  virtual bool HasPublisher(const std::string& topic) const = 0;
   // A service without arguments, std_srvs/Trigger. What `work` returns is the answer of success;
   // an InputError is that of a failure.
   virtual void OfferTrigger(const std::string& name, std::function<std::string()> work) = 0;

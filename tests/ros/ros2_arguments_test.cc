@@ -15,7 +15,6 @@
 namespace plumbline::ros_node {
 namespace {
 
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 Ros2Settings Read(const std::vector<std::string>& arguments,
@@ -78,19 +77,26 @@ TEST(Ros2Arguments, ReadParametersInTheirOrder) {
   const Ros2Settings settings =
       Read({"--ros-args", "--params-file", file, "-p", "queue_size:=7", "-p", "load:=true"});
   EXPECT_TRUE(settings.reliable);
-  const NodeParameters parameters = ReadParameters(settings.parameters, "");
+  const NodeParameters parameters = ReadParameters(settings.parameters, {"", settings.sources});
   EXPECT_EQ(parameters.slam.sensor, "stereo");
   EXPECT_EQ(parameters.map_period, 2);
   EXPECT_EQ(parameters.map_file, "17");
   EXPECT_EQ(parameters.queue_size, 7);
   EXPECT_TRUE(parameters.load);
-  EXPECT_THAT(parameters.slam.options, ElementsAre("features.line_count=100"));
+  ASSERT_EQ(parameters.slam.options.size(), 1U);
+  EXPECT_EQ(parameters.slam.options[0].key, "features.line_count");
+  EXPECT_EQ(parameters.slam.options[0].text, "100");
+  EXPECT_EQ(parameters.slam.options[0].where, file + ":11: options.features.line_count");
 }
 
 TEST(Ros2Arguments, AreRefusedInOneLine) {
   const ScratchFolder folder;
   const std::string flat = folder.Write("flat.yaml", "\nplumbline:\n  sensor: mono\n").string();
   const std::string list = folder.Write("list.yaml", "[1]\n").string();
+  const std::string values =
+      folder.Write("values.yaml", "plumbline:\n  ros__parameters: [1]\n").string();
+  const std::string own =
+      folder.Write("own.yaml", "/**:\n  ros__parameters:\n    reliability: some\n").string();
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"--verbose"}, "expected -r, -p, --params-file or NAME:=NAME, found '--verbose'"},
       {{"image"}, "expected NAME:=VALUE, found 'image'"},
@@ -99,6 +105,11 @@ TEST(Ros2Arguments, AreRefusedInOneLine) {
       {{"-p", "reliability:=some"}, "reliability: expected best_effort or reliable, found some"},
       {{"-p", "sensor:=[a"}, "-p sensor:"},
       {{"--params-file", flat}, flat + ":2: expected a group ros__parameters in 'plumbline'"},
+      {{"--params-file", values},
+       values + ":1: expected a group ros__parameters in 'plumbline', found a list"},
+      {{"--params-file", own}, own + ":3: reliability: expected best_effort or reliable"},
+      {{"-r", "__node:=a/b"}, "__node: expected a name of letters, digits and _, found 'a/b'"},
+      {{"--log-level"}, "expected a value after --log-level, found none"},
       {{"--params-file", list}, list + ":1: expected groups named after nodes"},
       {{"--params-file", "/nowhere.yaml"}, "/nowhere.yaml"},
   };
@@ -111,6 +122,30 @@ TEST(Ros2Arguments, AreRefusedInOneLine) {
                 Read({}, {"233", "", ""});
               }),
               HasSubstr("ROS_DOMAIN_ID: expected a whole number from 0 to 232, found '233'"));
+  EXPECT_THAT(MessageOf([] {
+                Read({}, {"", "maybe", ""});
+              }),
+              HasSubstr("ROS_LOCALHOST_ONLY: expected 0 or 1, found 'maybe'"));
+}
+
+TEST(Ros2Arguments, TellThatLogLevelsAreNotUsed) {
+  const Ros2Settings settings = Read({"--ros-args", "--log-level", "debug", "-p", "sensor:=mono"});
+  EXPECT_THAT(settings.notes, testing::ElementsAre("--log-level debug is not used"));
+  EXPECT_TRUE(settings.parameters.contains("sensor"));
+}
+
+TEST(NodeParameters, AreNamedByTheirFile) {
+  const ParameterNames names{"", {{"sensor", "n.yaml:4"}, {"kamera", "n.yaml:5"}}, {"reliability"}};
+  EXPECT_EQ(MessageOf([&] {
+              ReadParameters({{"sensor", true}}, names);
+            }),
+            "n.yaml:4: sensor: expected a text, found a truth value");
+  EXPECT_THAT(MessageOf([&] {
+                ReadParameters({{"kamera", true}}, names);
+              }),
+              testing::AllOf(HasSubstr("n.yaml:5: kamera: expected a parameter of this node ("),
+                             HasSubstr("reliability"),
+                             testing::EndsWith("; did you mean 'camera'?")));
 }
 
 TEST(NodeParameters, AreCheckedByNameAndType) {
@@ -123,7 +158,7 @@ TEST(NodeParameters, AreCheckedByNameAndType) {
        "~image_transport: expected raw or compressed, found theora"},
   };
   for (const auto& [parameters, message] : cases) {
-    EXPECT_EQ(MessageOf([&, &all = parameters] { ReadParameters(all, "~"); }), message);
+    EXPECT_EQ(MessageOf([&, &all = parameters] { ReadParameters(all, {"~"}); }), message);
   }
 }
 
