@@ -7,6 +7,7 @@
 #include "plumbline/io/map_file/map_io.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/map/keyframe_trajectory.h"
+#include "plumbline/report/run_folder.h"
 #include "plumbline/slam/saved_options.h"
 
 #include "apps/command_line.h"
@@ -14,6 +15,7 @@
 #include "apps/exported_map.h"
 #include "bindings.h"
 #include "interruptible.h"
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +41,12 @@ KeyFrameImages ImagesOf(const ImageSource& source, const SavedMap& saved) {
     return KeyFrameImages(*path, {}, saved);
   }
   return KeyFrameImages(std::get<std::shared_ptr<Dataset>>(source), saved);
+}
+
+// The data that images come from; empty where they are of no file.
+std::filesystem::path PathOf(const ImageSource& source) {
+  if (const auto* path = std::get_if<std::filesystem::path>(&source)) return *path;
+  return std::get<std::shared_ptr<Dataset>>(source)->info().path;
 }
 
 // The poses of the frames of the run, and their name in messages.
@@ -86,6 +94,9 @@ void ExportMap(const PyMap& map,
   std::vector<std::filesystem::path> read;
   if (!map.file.empty()) read.push_back(map.file);
   CheckOutput("path", path, read, KindOfExport(wanted.format));
+  if (source && !PathOf(*source).empty()) {
+    CheckFileApart("path", path, std::array{RunInput{PathOf(*source)}});
+  }
   wanted.imaging = {map.saved->context.camera, map.saved->context.octave_scale};
   wanted.line_map = OptionsOf(map).mapping.line_map;
   RunInterruptibly([&](const StopCheck& stop) {

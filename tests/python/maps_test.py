@@ -231,6 +231,9 @@ def test_maps_are_exported_with_images(program, sequence, dataset, tmp_path):
     assert len(files_of(tmp_path / "of the run")) == 14
     with pytest.raises(plumbline.InputError, match="undistort: goes with"):
         run.map.export(tmp_path / "a", "colmap", undistort=True)
+    for images in (dataset, sequence):
+        with pytest.raises(plumbline.InputError, match="outside of .*, which is read"):
+            run.map.export(sequence / "exp", "colmap", images=images)
     run.map.export(tmp_path / "whole", "colmap", images=dataset, undistort=True)
     assert b" PINHOLE " in files_of(tmp_path / "whole")[pathlib.Path("sparse/0/cameras.txt")]
     run.map.export(tmp_path / "grey.ply", "ply")
