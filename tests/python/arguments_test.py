@@ -231,10 +231,10 @@ CASES = {
     "images of lines": (lambda: room().active.export("/none/a", "obj", images="/none"),
                         "^images: goes with format ply, colmap and nerfstudio only"),
     "trajectory of keyframes": (
-        lambda: room().active.export("/none/a", "colmap", images="/none", trajectory=TRAJECTORY),
+        lambda: room().active.export("/none/a", "colmap", images="/nowhere", trajectory=TRAJECTORY),
         "trajectory: goes with frames="),
     "poses of no file": (
-        lambda: room().active.export("/none/a", "colmap", images="/none", frames="all"),
+        lambda: room().active.export("/none/a", "colmap", images="/nowhere", frames="all"),
         "frames: expected trajectory as well"),
     "no map file": (lambda: plumbline.load_map("/nothing.plb"), "/nothing.plb"),
     "merging with a mirror": (lambda: merged(np.diag([1, -1, 1, 1])), "transform: expected a rotation"),
