@@ -169,7 +169,9 @@ void PrintInertial(const InertialRecording& recording) {
                   1e3 * check.jitter,
                   recording.source));
   Row("imu file", Describe(recording.calibration, recording.calibration_source));
-  if (check.rest_seconds > 0) {
+  if (check.rest_seconds == 0) {
+    Row("imu at rest", "no rest found");
+  } else {
     Row("imu at rest",
         fmt::format("{:g} s: gyroscope {:.3g} rad/s/sqrt(Hz), bias {:.3g} rad/s; accelerometer "
                     "{:.3g} m/s^2/sqrt(Hz)",
@@ -195,7 +197,8 @@ void PrintAlignment(const DatasetInfo& info, const InertialRecording& recording)
   }
   const Eigen::Vector3d& bias = alignment->gyroscope_bias;
   Row("imu to camera",
-      fmt::format("rotation known to {:.2g} degrees, clock {:+.2f} ms (+-{:.2g}), gyroscope's bias "
+      fmt::format("measured by poses and samples: rotation to {:.2g} degrees, clock {:+.2f} ms "
+                  "(+-{:.2g}), gyroscope's bias "
                   "{:.3g} rad/s; by {} stretches of {}",
                   alignment->rotation_sigma / kDegree,
                   1e3 * alignment->time_offset,

@@ -277,7 +277,7 @@ std::string FormatSummary(const RunDescription& description,
   json["points"] = counts.points;
   json["lines"] = counts.lines;
   AddEvents(result.events, json);
-  if (result.inertial) json["inertial"] = Described(*result.inertial);
+  json["inertial"] = result.inertial ? Described(*result.inertial) : Json(nullptr);
   const auto error = CompareWithGroundTruth(result, dataset);
   json["accuracy"] = error ? Accuracy(*error, dataset.sensor(), counts.frames) : Json(nullptr);
   json["no_errors"] = error ? Json(nullptr) : Json(WhyNoErrors(dataset.info()));

@@ -122,7 +122,10 @@ TEST(Info, TellsOfAnInertialSensor) {
   EXPECT_THAT(out, HasSubstr("imu file      " + file + ": noise; missing: place\n"));
   EXPECT_THAT(out, HasSubstr("imu fault     1 gaps above 1.5 intervals, the longest 0.100 s\n"));
   EXPECT_THAT(out, HasSubstr("imu fault     gyroscope_noise_density is 1.7e-05, but "));
+  EXPECT_THAT(out, HasSubstr("imu at rest   3 s: "));
   EXPECT_THAT(Info({folder.path().string(), "--imu", "off"}), testing::Not(HasSubstr("imu  ")));
+  const auto turning = folder.Write("turning.csv", "1,1,0,0,0,0,9.81\n5000001,1,0,0,0,0,9.81\n");
+  EXPECT_THAT(Info({turning.string()}), HasSubstr("imu at rest   no rest found\n"));
   // Also without any image.
   EXPECT_THAT(Info({rows}), HasSubstr("imu           781 samples"));
 }

@@ -149,7 +149,7 @@ TEST(SynthCommand, RendersAClockThatInfoFinds) {
   ASSERT_EQ(RunProgram(folder, call).code, 0);
   const Outcome info = RunProgram(folder, "info " + Quoted(folder / "out"));
   EXPECT_EQ(info.code, 0) << info.err;
-  EXPECT_THAT(info.out, HasSubstr("imu to camera rotation known to 0.0"));
+  EXPECT_THAT(info.out, HasSubstr("imu to camera measured by poses and samples: rotation to 0.0"));
   EXPECT_THAT(info.out, HasSubstr("imu fault     time_offset is 0.0000 s, but -0.0120 s by"));
   EXPECT_THAT(info.out, testing::Not(HasSubstr("imu_from_left is turned")));
 }

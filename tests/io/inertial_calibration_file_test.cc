@@ -125,7 +125,10 @@ TEST(ParseInertialCalibration, RefusesByName) {
        "f.yaml:2: imu.gyroscope_noise_density: expected from 1e-07 to 0.1 rad/s/sqrt(Hz), found "
        "1.7"},
       {imu + "  gyroscope_noise_density: 1.7e-4\n",
-       "f.yaml:2: imu.gyroscope_random_walk: expected a value, found none"},
+       "f.yaml:2: imu.gyroscope_noise_density: expected all four densities or none, found no "
+       "accelerometer_random_walk"},
+      {imu + "  gyroscope_noise: 1.7e-4\n",
+       "f.yaml:2: unknown key 'imu.gyroscope_noise'; did you mean 'gyroscope_noise_density'?"},
       {imu + "  time_offset: 3000\n",
        "f.yaml:2: imu.time_offset: expected from -10 to 10 s, found 3000"},
       {imu + "  rate_hz: 0\n", "f.yaml:2: imu.rate_hz: expected from 1 to 100000 Hz, found 0"},

@@ -172,8 +172,9 @@ TEST_F(RawStreams, NameWhatIsWrong) {
               HasSubstr("standard input: behind 1 frames: expected 'frame' or 'missing'"));
   EXPECT_THAT(Fault(kHeader + "frame -5\n"), HasSubstr("behind 0 frames"));
   // Samples must be announced.
-  EXPECT_THAT(Fault(kHeader + "imu 90 0.1 0.2 0.3 4 5 6\n"),
-              HasSubstr("expected 'frame' or 'missing' and a stamp in nanoseconds, found 'imu"));
+  EXPECT_THAT(
+      Fault(kHeader + "imu 90 0.1 0.2 0.3 4 5 6\n"),
+      HasSubstr("behind 0 frames: expected 'imu' in the header, as samples come, found none"));
   EXPECT_THAT(Fault(kHeader + std::string(1000, 'x')), HasSubstr("behind 0 frames: expected"));
   const SlowPipe pipe(kHeader);
   EXPECT_THAT(MessageOf([&] { OpenRawStream(pipe.read(), {}); }),

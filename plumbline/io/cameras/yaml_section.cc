@@ -270,10 +270,14 @@ Eigen::Quaterniond YamlSection::Rotation(const std::string& key) const {
 }
 
 void YamlSection::RejectUnknown(const std::vector<std::string>& known) const {
+  constexpr std::size_t kShortest = 4;  // letters of a beginning that tells a key
   for (const auto& entry : place_->node) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "[...]";
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    const std::optional<std::string> nearest = NearestName(key, known);
+    const auto whole = std::find_if(known.begin(), known.end(), [&key](const std::string& name) {
+      return key.size() >= kShortest && name.starts_with(key);
+    });
+    const auto nearest = whole != known.end() ? std::optional(*whole) : NearestName(key, known);
     throw InputError(fmt::format("{}:{}: unknown key {}{}",
                                  place_->source,
                                  entry.first.Mark().line + 1,

@@ -52,7 +52,8 @@ class YamlSection {
   Rigid3 Motion(const std::string& key, int rows = 4) const;
   Eigen::Quaterniond Rotation(const std::string& key) const;
 
-  // Throws InputError naming the nearest known key if the group has an unknown key.
+  // Throws InputError naming the nearest known key, or the first that begins so, if the group has
+  // an unknown key.
   void RejectUnknown(const std::vector<std::string>& known) const;
 
  private:

@@ -66,13 +66,17 @@ double NumberWithin(const YamlSection& section,
 
 // Reads the four densities, if any of them is there.
 std::optional<InertialNoise> ReadNoise(const YamlSection& section, const char* Density::*name) {
-  bool any = false;
-  for (const Density& density : kDensities) any = any || section.Has(density.*name);
-  if (!any) return std::nullopt;
+  const char *there = nullptr, *missing = nullptr;
   InertialNoise noise;
   for (const Density& density : kDensities) {
-    noise.*density.member =
-        NumberWithin(section, density.*name, density.least, density.most, density.unit);
+    const char* key = density.*name;
+    (section.Has(key) ? there : missing) = key;
+    if (!section.Has(key)) continue;
+    noise.*density.member = NumberWithin(section, key, density.least, density.most, density.unit);
+  }
+  if (there == nullptr) return std::nullopt;
+  if (missing != nullptr) {
+    section.Fail(there, fmt::format("expected all four densities or none, found no {}", missing));
   }
   return noise;
 }

@@ -237,6 +237,12 @@ class RawStream : public LiveSource {
   }
 
   [[noreturn]] void FailAtFrame(const std::string& line) const {
+    if (!header_.imu && line.starts_with("imu ")) {
+      throw InputError(fmt::format(
+          "{}: behind {} frames: expected 'imu' in the header, as samples come, found none",
+          kName,
+          frames_));
+    }
     throw InputError(
         fmt::format("{}: behind {} frames: expected 'frame' or 'missing' and a stamp in "
                     "nanoseconds{}, found {}",
