@@ -7,6 +7,7 @@
 #include "plumbline/base/units.h"
 #include "plumbline/inertial/inertial_check.h"
 #include "plumbline/inertial/rate_alignment.h"
+#include "plumbline/io/trajectory_io.h"
 
 #include "apps/command_inputs.h"
 #include <algorithm>
@@ -47,6 +48,7 @@ std::optional<InertialRecording> FindUsable(const InertialRequest& request,
   if (!request.used) return std::nullopt;
   InertialOptions options{request.file, request.camera, request.topics};
   options.seconds = TurningStretch::kSeconds;
+  options.most = TurningStretch::kMostSamples;
   try {
     std::optional<InertialRecording> recording = find(options);
     if (recording) CheckPlace(request.rotation, *recording);
@@ -73,11 +75,12 @@ void UseIfSound(InertialRecording recording, InertialInput& input) {
   const std::vector<std::string> faults = InertialFaults(check, recording.calibration);
   const bool wrong_units = check.rates_in_degrees;
   if (!faults.empty()) {
-    input.notes.push_back(fmt::format("{}{}{}: {}",
-                                      wrong_units ? kLeftOut : "inertial sensor: ",
-                                      recording.source,
-                                      recording.complete ? "" : " (its first ten minutes)",
-                                      fmt::join(faults, "; ")));
+    input.notes.push_back(
+        fmt::format("{}{}{}: {}",
+                    wrong_units ? kLeftOut : "inertial sensor: ",
+                    recording.source,
+                    recording.complete ? "" : fmt::format(" (its first {:.0f} s)", check.seconds),
+                    fmt::join(faults, "; ")));
   }
   if (wrong_units) return;
   if (check.saturated_rates > 0) {
@@ -118,7 +121,8 @@ InertialInput OpenGivenInertial(const InertialRequest& request,
                                 std::vector<InertialSample> samples) {
   InertialInput input;
   const auto find = [&](const InertialOptions& options) {
-    return std::optional(DescribeGivenInertial(std::move(samples), dataset.info().path, options));
+    return std::optional(DescribeGivenInertial(
+        std::move(samples), dataset.info().path, dataset.info().format, options));
   };
   auto recording = FindUsable(request, "imu", find, input);
   if (recording) UseIfSound(*std::move(recording), input);
@@ -145,7 +149,14 @@ InertialFeed::InertialFeed(const InertialRecording* recording) : recording_(reco
 void InertialFeed::Add(std::span<const InertialSample> samples) {
   if (recording_ == nullptr) return;
   for (const InertialSample& sample : samples) {
-    if (order_.Takes(sample.stamp_ns)) waiting_.push_back(sample);
+    order_.Add(sample);
+    TakeOrdered();
+  }
+}
+
+void InertialFeed::TakeOrdered() {
+  while (const auto sample = order_.Take()) {
+    waiting_.push_back(*sample);
     if (waiting_.size() > kMostGiven) waiting_.pop_front();
   }
 }
@@ -155,11 +166,9 @@ std::optional<InertialSample> InertialFeed::Next() {
   while (waiting_.empty() && stream_ != nullptr) {
     const auto sample = stream_->Next();
     unusable_ = stream_->unusable();
-    if (!sample) {
-      stream_.reset();
-    } else if (order_.Takes(sample->stamp_ns)) {
-      waiting_.push_back(*sample);
-    }
+    sample ? order_.Add(*sample) : order_.End();
+    if (!sample) stream_.reset();
+    TakeOrdered();
   }
   return waiting_.empty() ? std::nullopt : std::optional(waiting_.front());
 }
@@ -186,10 +195,35 @@ std::span<const InertialSample> InertialFeed::Telling() {
   return stretch_.best();
 }
 
+namespace {
+
+// Why no turn of the camera could be compared with the gyroscope.
+std::string WhyUnused(const RunResult& result,
+                      const std::string& source,
+                      std::span<const InertialSample> samples) {
+  constexpr std::size_t kFewest = 4;  // a map's first frame, a motion, a turn, one to spare
+  const auto main = result.MainMap();
+  const std::size_t tracked = main ? result.CausalTrajectory(*main).size() : 0;
+  if (tracked < kFewest) {
+    return fmt::format("too few frames were tracked: {} of {}", tracked, result.frames.size());
+  }
+  const auto range = [](std::int64_t from_ns, std::int64_t to_ns) {
+    return fmt::format("from {} to {} s", FormatStamp(from_ns), FormatStamp(to_ns));
+  };
+  return fmt::format("no turn between frames was covered by samples: {}; frames {}, samples {}",
+                     source,
+                     range(result.frames.front().stamp_ns, result.frames.back().stamp_ns),
+                     samples.empty() ? "none until then"
+                                     : range(samples.front().stamp_ns, samples.back().stamp_ns));
+}
+
+}  // namespace
+
 std::vector<std::string> InertialNotes(const RunResult& result,
                                        const InertialRecording& recording,
-                                       std::span<const InertialSample> samples,
+                                       InertialFeed& feed,
                                        const UnusableSamples& unusable) {
+  const std::span<const InertialSample> samples = feed.Telling();
   std::vector<std::string> notes;
   if (unusable.count > 0) {
     notes.push_back(fmt::format("inertial sensor: {} samples cannot be used and are left out{}{}",
@@ -198,7 +232,9 @@ std::vector<std::string> InertialNotes(const RunResult& result,
                                 unusable.first));
   }
   if (!recording.open) {  // of a live source, whose samples were not known before
-    const InertialCheck check = CheckInertial(InOrderOfTime(samples), recording.calibration);
+    OrderedSamples ordered = InOrderOfTime(samples);
+    feed.CountInto(ordered);
+    const InertialCheck check = CheckInertial(ordered, recording.calibration);
     const auto faults = InertialFaults(check, recording.calibration);
     if (!faults.empty()) {
       notes.push_back(
@@ -213,9 +249,8 @@ std::vector<std::string> InertialNotes(const RunResult& result,
     }
   }
   if (result.inertial && result.inertial->turns == 0) {
-    notes.push_back(
-        "inertial sensor: not used, as no turn between frames was covered by samples: " +
-        recording.source);
+    notes.push_back("inertial sensor: not used, as " +
+                    WhyUnused(result, recording.source, samples));
   }
   if (result.inertial && result.inertial->contradicted > 0) {
     notes.push_back(

@@ -73,6 +73,8 @@ class InertialFeed {
   // Returns, after the last frame, those of the samples that tell most about the sensor. Reads half
   // a second more of them, as the clocks may be apart.
   std::span<const InertialSample> Telling();
+  // Adds how many samples were left out so far as out of order.
+  void CountInto(OrderedSamples& ordered) const { order_.CountInto(ordered); }
   // What of a sequence could not be used so far.
   const UnusableSamples& unusable() const { return unusable_; }
   // Samples that are held.
@@ -80,6 +82,7 @@ class InertialFeed {
 
  private:
   std::optional<InertialSample> Next();
+  void TakeOrdered();
 
   const InertialRecording* recording_;
   std::unique_ptr<InertialStream> stream_;  // null of a live source
@@ -93,13 +96,13 @@ class InertialFeed {
 
 // Compares rotation and clock of the calibration with the turns of the run's own trajectory.
 // Returns one sentence for each number that is wrong, with what would be right, and one if the
-// gyroscope was put aside for a while, or samples were left out.
+// gyroscope was not used, with the reason, or put aside for a while, or samples were left out.
 //
-//   samples   InertialFeed::Telling
+//   feed      after the last frame
 //   unusable  those that were not told before the run
 std::vector<std::string> InertialNotes(const RunResult& result,
                                        const InertialRecording& recording,
-                                       std::span<const InertialSample> samples,
+                                       InertialFeed& feed,
                                        const UnusableSamples& unusable);
 
 }  // namespace plumbline

@@ -262,8 +262,7 @@ class FrameFeed {
     UnusableSamples unusable;  // of what was read before the run, they are told
     if (!input_.inertial->complete) unusable = inertial_.unusable();
     if (input_.live != nullptr) unusable = input_.live->UnusableInertial();
-    for (std::string& note :
-         InertialNotes(result_.result, *input_.inertial, inertial_.Telling(), unusable)) {
+    for (std::string& note : InertialNotes(result_.result, *input_.inertial, inertial_, unusable)) {
       if (!quiet_) progress_.Say(note);
       result_.notes.push_back(std::move(note));
     }

@@ -11,6 +11,7 @@
 #include "bindings.h"
 #include "running_system.h"
 #include "texts.h"
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -81,7 +82,7 @@ py::list NotesAfter(RunInertial& inertial, RunningSystem& system) {
   return ToTexts(system.WithFinished("imu", [&](const RunResult& finished) {
     return InertialNotes(finished,
                          recording,
-                         inertial.feed.Telling(),
+                         inertial.feed,
                          recording.complete ? UnusableSamples{} : inertial.feed.unusable());
   }));
 }
@@ -99,7 +100,15 @@ std::vector<InertialSample> ReadInertialSamples(py::handle value) {
       throw InputError(
           fmt::format("imu: row {}: expected a stamp in nanoseconds, found {}", i, row[0]));
     }
-    samples.push_back({std::llround(row[0]), {row[1], row[2], row[3]}, {row[4], row[5], row[6]}});
+    const InertialSample sample{
+        std::llround(row[0]), {row[1], row[2], row[3]}, {row[4], row[5], row[6]}};
+    if (!IsPlausible(sample)) {
+      const double largest = std::max(sample.angular_rate.cwiseAbs().maxCoeff(),
+                                      sample.specific_force.cwiseAbs().maxCoeff());
+      throw InputError(fmt::format(
+          "imu: row {}: expected rates in rad/s and forces in m/s^2, found {}", i, largest));
+    }
+    samples.push_back(sample);
   }
   return samples;
 }

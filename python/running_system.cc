@@ -52,7 +52,12 @@ void RunningSystem::AddInertial(std::span<const InertialSample> samples) {
   if (samples.empty()) return;
   const auto lock = Enter("imu");
   CheckRunning("imu");
-  pipeline_.AddInertial(samples);
+  std::vector<InertialSample> ordered;
+  for (const InertialSample& sample : samples) {
+    inertial_order_.Add(sample);
+    while (const auto next = inertial_order_.Take()) ordered.push_back(*next);
+  }
+  pipeline_.AddInertial(ordered);
 }
 
 void RunningSystem::Feed(SensorFrame frame) {

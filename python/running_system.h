@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/base/stop_check.h"
+#include "plumbline/inertial/inertial_samples.h"
 #include "plumbline/io/datasets/dataset.h"
 #include "plumbline/map/saved_atlas.h"
 #include "plumbline/slam/pipeline.h"
@@ -89,6 +90,7 @@ class RunningSystem {
   std::optional<RunResult> result_;  // once it is finished
   bool continues_ = false;           // maps were loaded
   bool uses_inertial_ = false;
+  TimeOrder inertial_order_;
   std::optional<std::int64_t> last_stamp_ns_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   KeptViews views_{{}};

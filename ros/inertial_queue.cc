@@ -5,13 +5,12 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
 #include "plumbline/base/units.h"
+#include "plumbline/inertial/inertial_samples.h"
 #include "plumbline/io/camera_formats.h"
 #include "plumbline/io/cameras/camera_file.h"
 #include "plumbline/io/inertial/inertial_calibration_file.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <filesystem>
 #include <system_error>
 
@@ -21,7 +20,6 @@ namespace {
 constexpr std::int64_t kMoreNs = 20'000'000;  // beyond a frame's stamp, as of a recording
 constexpr std::int64_t kPatienceNs = 100'000'000;
 constexpr std::size_t kMostSamples = 20'000;
-constexpr double kMostValue = 1e6;  // rad/s and m/s^2, beyond all sensors
 
 std::optional<InertialCalibration> ToldBy(const std::string& camera) {
   std::error_code error;
@@ -48,16 +46,11 @@ std::optional<InertialCalibration> FindInertialCalibration(const std::string& im
 }
 
 std::optional<InertialSample> SampleOf(const InertialMessage& message) {
-  const auto usable = [](const std::array<double, 3>& v) {
-    return std::all_of(v.begin(), v.end(), [](double x) { return std::abs(x) <= kMostValue; });
-  };
-  if (message.stamp_ns <= 0 || !message.has_rate || !usable(message.angular_rate) ||
-      !usable(message.specific_force)) {
-    return std::nullopt;
-  }
-  return InertialSample{message.stamp_ns,
-                        Eigen::Map<const Eigen::Vector3d>(message.angular_rate.data()),
-                        Eigen::Map<const Eigen::Vector3d>(message.specific_force.data())};
+  if (message.stamp_ns <= 0 || !message.has_rate) return std::nullopt;
+  const InertialSample sample{message.stamp_ns,
+                              Eigen::Map<const Eigen::Vector3d>(message.angular_rate.data()),
+                              Eigen::Map<const Eigen::Vector3d>(message.specific_force.data())};
+  return IsPlausible(sample) ? std::optional(sample) : std::nullopt;
 }
 
 InertialQueue::InertialQueue(double time_offset, bool patient)

@@ -198,6 +198,7 @@ InertialCheck CheckInertial(const OrderedSamples& ordered, const InertialCalibra
   InertialCheck check;
   check.backward = ordered.backward;
   check.repeated = ordered.repeated;
+  check.ahead = ordered.ahead;
   CheckTimes(samples, check);
   if (samples.size() < 2) return check;
   check.largest_rate = LargestOf(samples, &InertialSample::angular_rate);
@@ -223,6 +224,7 @@ std::vector<std::string> InertialFaults(const InertialCheck& check,
             fmt::format("gaps above 1.5 intervals, the longest {:.3f} s", check.longest_gap));
   add_count(check.backward, "samples with a stamp before that of a former one are left out");
   add_count(check.repeated, "samples with the stamp of the former one are left out");
+  add_count(check.ahead, "samples with a stamp far ahead of those around it are left out");
   add_count(check.saturated_rates,
             fmt::format("samples at the gyroscope's range; the largest rate is {:.4g} rad/s",
                         check.largest_rate));

@@ -19,9 +19,9 @@ struct InertialCheck {
   double rate_hz = 0;  // by the median interval; 0 of less than two samples
   // Seconds that 95 % of the intervals that are no gaps are at most off the median.
   double jitter = 0;
-  std::size_t gaps = 0;    // intervals above 1.5 medians
-  double longest_gap = 0;  // seconds
-  std::size_t backward = 0, repeated = 0;
+  std::size_t gaps = 0;                               // intervals above 1.5 medians
+  double longest_gap = 0;                             // seconds
+  std::size_t backward = 0, repeated = 0, ahead = 0;  // left out, as of OrderedSamples
   // Samples with an axis at the range that the calibration tells, or else at the largest magnitude
   // of all, if three samples or more in a row have exactly this.
   std::size_t saturated_rates = 0, saturated_forces = 0;

@@ -16,23 +16,63 @@ double SecondsBetween(const InertialSample& a, const InertialSample& b) {
 
 }  // namespace
 
-bool TimeOrder::Takes(std::int64_t stamp_ns) {
-  if (last_ns_ && stamp_ns <= *last_ns_) {
-    ++(stamp_ns == *last_ns_ ? repeated_ : backward_);
-    return false;
+bool IsPlausible(const InertialSample& sample) {
+  const auto usable = [](const Eigen::Vector3d& v) {
+    return (v.array().abs() <= 1e6).all();  // false for NaN
+  };
+  return usable(sample.angular_rate) && usable(sample.specific_force);
+}
+
+void TimeOrder::Add(const InertialSample& sample) {
+  const std::int64_t stamp_ns = sample.stamp_ns;
+  if (waiting_ && waiting_->stamp_ns - stamp_ns > kNsPerSecond / 2 &&
+      (!last_ns_ || stamp_ns > *last_ns_)) {
+    waiting_.reset();
+    ++ahead_;
   }
-  last_ns_ = stamp_ns;
-  return true;
+  const auto newest_ns = waiting_ ? std::optional(waiting_->stamp_ns) : last_ns_;
+  if (newest_ns && stamp_ns <= *newest_ns) {
+    ++(stamp_ns == *newest_ns ? repeated_ : backward_);
+    return;
+  }
+  Release();
+  waiting_ = sample;
+  if (last_ns_ && stamp_ns - *last_ns_ <= kNsPerSecond) Release();
+}
+
+void TimeOrder::Release() {
+  if (!waiting_) return;
+  last_ns_ = waiting_->stamp_ns;
+  ready_.push_back(*waiting_);
+  waiting_.reset();
+}
+
+std::optional<InertialSample> TimeOrder::Take() {
+  if (ready_.empty()) return std::nullopt;
+  const InertialSample sample = ready_.front();
+  ready_.pop_front();
+  return sample;
+}
+
+void TimeOrder::CountInto(OrderedSamples& ordered) const {
+  ordered.backward += backward_;
+  ordered.repeated += repeated_;
+  ordered.ahead += ahead_;
 }
 
 OrderedSamples InOrderOfTime(std::span<const InertialSample> samples) {
   OrderedSamples ordered;
   TimeOrder order;
+  const auto take = [&] {
+    while (const auto sample = order.Take()) ordered.samples.push_back(*sample);
+  };
   for (const InertialSample& sample : samples) {
-    if (order.Takes(sample.stamp_ns)) ordered.samples.push_back(sample);
+    order.Add(sample);
+    take();
   }
-  ordered.backward = order.backward();
-  ordered.repeated = order.repeated();
+  order.End();
+  take();
+  order.CountInto(ordered);
   return ordered;
 }
 

@@ -352,6 +352,9 @@ TEST(ToleratedInput, AnInertialSensorThatIsNotUsedIsTold) {
   const Outcome elsewhere = run("--imu " + Quoted(imu));
   EXPECT_EQ(elsewhere.code, 0) << elsewhere.err;
   EXPECT_THAT(elsewhere.err, HasSubstr("not used, as no turn between frames was covered"));
+  EXPECT_THAT(elsewhere.err, HasSubstr("; frames from "));
+  EXPECT_THAT(run("--to 1 --imu " + Quoted(imu)).err,
+              HasSubstr("not used, as too few frames were tracked: 1 of 1\n"));
 }
 
 }  // namespace tolerated_input_test

@@ -3,6 +3,8 @@
 #include "plumbline/inertial/inertial_samples.h"
 
 #include "tests/inertial/invented_motion.h"
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -95,13 +97,51 @@ TEST(SampleJoiner, GivesUpTheOldestWhereTheSlowerOneIsSilent) {
   EXPECT_EQ(joined, 10'000U);
 }
 
-TEST(TimeOrder, CountsWhatIsNotLater) {
+constexpr std::int64_t kMs = 1'000'000, kYears = 1'000'000'000'000'000'000;
+
+std::vector<std::int64_t> StampsOf(const OrderedSamples& ordered) {
+  std::vector<std::int64_t> stamps;
+  for (const InertialSample& sample : ordered.samples) stamps.push_back(sample.stamp_ns / kMs);
+  return stamps;
+}
+
+TEST(InOrderOfTime, LeavesOutASampleThatIsFarAheadOfTheNextOne) {
+  using Stamps = std::vector<std::int64_t>;
+  // In the midst, as the first one, and ahead by 15 s.
+  const OrderedSamples midst =
+      InOrderOfTime(Samples{At(0), At(5 * kMs), At(kYears), At(10 * kMs), At(15 * kMs)});
+  EXPECT_EQ(StampsOf(midst), (Stamps{0, 5, 10, 15}));
+  EXPECT_EQ(midst.ahead, 1U);
+  EXPECT_EQ(midst.backward, 0U);
+  const OrderedSamples first = InOrderOfTime(Samples{At(kYears), At(5 * kMs), At(10 * kMs)});
+  EXPECT_EQ(StampsOf(first), (Stamps{5, 10}));
+  EXPECT_EQ(first.ahead, 1U);
+  EXPECT_EQ(StampsOf(InOrderOfTime(Samples{At(0), At(15'005 * kMs), At(10 * kMs)})),
+            (Stamps{0, 10}));
+  // A pause is none, also where a sample goes back behind it.
+  const OrderedSamples pause =
+      InOrderOfTime(Samples{At(0), At(3000 * kMs), At(2999 * kMs), At(3005 * kMs), At(9000 * kMs)});
+  EXPECT_EQ(StampsOf(pause), (Stamps{0, 3000, 3005, 9000}));
+  EXPECT_EQ(pause.ahead, 0U);
+  EXPECT_EQ(pause.backward, 1U);
+}
+
+TEST(TimeOrder, WaitsForTheNextWhereASampleIsFarAhead) {
   TimeOrder order;
-  std::vector<bool> taken;
-  for (const int stamp : {-5, 3, 3, 1, 4}) taken.push_back(order.Takes(stamp));
-  EXPECT_EQ(taken, (std::vector<bool>{true, true, false, false, true}));
-  EXPECT_EQ(order.repeated(), 1U);
-  EXPECT_EQ(order.backward(), 1U);
+  std::vector<std::size_t> taken;
+  for (const std::int64_t ms : {0, 5, 10, 2000, 2005, 2010}) {
+    order.Add(At(ms * kMs));
+    taken.push_back(0);
+    while (order.Take()) ++taken.back();
+  }
+  EXPECT_EQ(taken, (std::vector<std::size_t>{0, 2, 1, 0, 2, 1}));
+}
+
+TEST(IsPlausible, RefusesWhatNoSensorMeasures) {
+  EXPECT_TRUE(IsPlausible(At(0, 1e6)));
+  EXPECT_FALSE(IsPlausible(At(0, 1.1e6)));
+  EXPECT_FALSE(IsPlausible(At(0, 1e300)));
+  EXPECT_FALSE(IsPlausible({0, Eigen::Vector3d(0, std::nan(""), 0), Eigen::Vector3d::Zero()}));
 }
 
 }  // namespace

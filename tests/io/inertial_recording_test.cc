@@ -7,6 +7,7 @@
 #include "tests/io/recorded_bag.h"
 #include "tests/io/scratch_folder.h"
 #include "tests/support/inertial_messages.h"
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,6 +54,36 @@ TEST(OpenInertialAlone, ReadsNoMoreAtOnceThanIsWanted) {
   for (const auto stream = some.open(); stream->Next();) ++all;
   EXPECT_EQ(all, 100U);
   EXPECT_TRUE(OpenInertialAlone(file, {}).complete);
+  const InertialRecording few = OpenInertialAlone(file, {.most = 7});
+  EXPECT_EQ(few.ordered.samples.size(), 7U);
+  EXPECT_FALSE(few.complete);
+}
+
+TEST(OpenInertialAlone, OneStampFarAheadDoesNotEndTheSensor) {
+  const ScratchFolder folder;
+  for (const int wrong : {0, 1, 50}) {
+    std::string rows;
+    for (int i = 0; i < 100; ++i) {
+      const std::int64_t ahead = i == wrong ? 40 * 365 * 86'400'000'000'000 : 0;
+      rows += Row(std::int64_t{i} * 5'000'000 + 1 + ahead, 0, 9.8);
+    }
+    const InertialRecording read = OpenInertialAlone(folder.Write("a.csv", rows), {.seconds = 600});
+    EXPECT_EQ(read.ordered.samples.size(), 99U);
+    EXPECT_EQ(read.ordered.ahead, 1U);
+    EXPECT_TRUE(read.complete);
+  }
+}
+
+TEST(FindInertial, TellsOfAFolderInPlaceOfTheFile) {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder / "imu.csv");
+  EXPECT_EQ(MessageOf([&] { FindInertial(folder.path(), DatasetFormat::kTum, {}); }),
+            (folder / "imu.csv").string() + ": expected a file, found a folder");
+  std::filesystem::create_directories(folder / "mav0/imu0");
+  std::filesystem::create_symlink("data.csv", folder / "mav0/imu0/data.csv");
+  EXPECT_TRUE(MessageOf([&] {
+                FindInertial(folder.path(), DatasetFormat::kEuroc, {});
+              }).starts_with((folder / "mav0/imu0/data.csv").string() + ": "));
 }
 
 TEST(FindInertial, ReadsFoldersAndTheirCalibration) {
@@ -123,6 +154,12 @@ TEST(FindInertial, ReadsTheTopicOfABag) {
   EXPECT_EQ(MessageOf([&] { FindInertial(most, DatasetFormat::kBag, {}); }),
             "/imu0 of " + most.string() +
                 ": expected samples, but 3 of 5 messages of /imu0 are no samples");
+  BagWriter useless = StereoBag();
+  for (int i = 0; i < 3; ++i) useless.Add("/imu0", "sensor_msgs/Imu", 7 + i, "short");
+  const auto none = folder.Write("none.bag", useless.Finish());
+  EXPECT_EQ(MessageOf([&] { FindInertial(none, DatasetFormat::kBag, {}); }),
+            "/imu0 of " + none.string() +
+                ": expected samples, but 3 of 3 messages of /imu0 are no samples");
   // The images are those of before, also where users name the topic of the sensor.
   EXPECT_EQ(OpenDataset(file, {})->size(), 2U);
   DatasetOptions named;

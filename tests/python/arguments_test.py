@@ -123,6 +123,9 @@ CASES = {
                                "imu: expected numbers of shape .N, 7."),
     "samples that are no numbers": (lambda: system().process(GRAY, 0, imu=np.full((3, 7), np.nan)),
                                     "imu: expected"),
+    "samples that no sensor measures": (
+        lambda: system().process(GRAY, 0, imu=[[1, 0, 0, 0, 0, 0, 9.8], [2, 0, 1e300, 0, 0, 0, 9.8]]),
+        r"imu: row 1: expected rates in rad/s and forces in m/s\^2, found 1e\+300"),
     "samples before all time": (lambda: system().process(GRAY, 0, imu=[[-1, 0, 0, 0, 0, 0, 9.8]]),
                                 "imu: row 0: expected a stamp in nanoseconds, found -1"),
     "samples without a sensor": (lambda: system().feed(GRAY, 0, imu=np.zeros((3, 7))),

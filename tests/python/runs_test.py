@@ -86,8 +86,9 @@ def test_samples_are_taken_as_an_array_at_once_or_with_the_frames(sequence, data
     assert np.allclose(system.trajectory().positions, with_file.trajectory.positions, atol=1e-6)
     without = plumbline.run(sequence, imu="off")
     assert not np.array_equal(without.trajectory.positions, with_file.trajectory.positions)
-    with pytest.raises(plumbline.InputError, match="imu: expected the place of the sensor"):
-        plumbline.run(dataset, imu=samples)  # nothing tells where the sensor is
+    # Without a file the calibration with the data counts, as for the program.
+    with_data = plumbline.run(dataset, imu=samples)
+    assert np.allclose(with_data.trajectory.positions, with_file.trajectory.positions, atol=1e-6)
 
 
 def test_what_is_wrong_with_samples_is_told(sequence, tmp_path):
@@ -100,8 +101,15 @@ def test_what_is_wrong_with_samples_is_told(sequence, tmp_path):
     samples[:, 0] = np.arange(300) * 5e6
     samples[:, 6] = 9.81
     samples[100:, 0] += 1e8
+    samples[150, 0] += 1e18
+    with pytest.warns(UserWarning, match="1 samples with a stamp far ahead"):
+        plumbline.run(tmp_path, imu=samples)
+    samples[150, 0] -= 1e18
     with pytest.warns(UserWarning, match="1 gaps above 1.5 intervals, the longest 0.105 s"):
         plumbline.run(tmp_path, imu=samples)
+    (tmp_path / "camera.yaml").write_text("size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrate_hz: 3\n")
+    with pytest.raises(plumbline.InputError, match="imu: expected the place of the sensor"):
+        plumbline.run(tmp_path, imu=samples)  # nothing tells where the sensor is
 
 
 def test_a_preset_is_named_in_the_summary(sequence, tmp_path):

@@ -27,9 +27,40 @@ bool IsFileThere(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-bool IsWithin(const InertialSample& first, const InertialSample& sample, double seconds) {
-  return static_cast<double>(sample.stamp_ns - first.stamp_ns) <= seconds * kNsPerSecond;
-}
+// The first samples of a source, in order of time.
+class FirstSamples {
+ public:
+  // Returns false once there are as many as the options want.
+  bool Add(const InertialSample& sample, const InertialOptions& options) {
+    order_.Add(sample);
+    return Take(options);
+  }
+  // After the last sample.
+  bool End(const InertialOptions& options) {
+    order_.End();
+    return Take(options);
+  }
+  OrderedSamples Ordered() && {
+    order_.CountInto(ordered_);
+    return std::move(ordered_);
+  }
+
+ private:
+  bool Take(const InertialOptions& options) {
+    std::vector<InertialSample>& taken = ordered_.samples;
+    while (const auto next = order_.Take()) {
+      if (!taken.empty()) {
+        const auto ns = static_cast<double>(next->stamp_ns - taken.front().stamp_ns);
+        if (ns > options.seconds * kNsPerSecond || taken.size() >= options.most) return false;
+      }
+      taken.push_back(*next);
+    }
+    return true;
+  }
+
+  TimeOrder order_;
+  OrderedSamples ordered_;
+};
 
 // Tells how many samples of a source were left out, if any; refuses it where they are the most.
 void JudgeUnusable(const UnusableSamples& unusable,
@@ -49,16 +80,17 @@ void JudgeUnusable(const UnusableSamples& unusable,
 
 // The samples of a topic.
 struct TopicSamples {
-  std::vector<InertialSample> samples;
+  FirstSamples first;
+  OrderedSamples ordered;  // when all are read
   bool has_rate = false, has_force = false;
-  std::size_t broken = 0;
+  std::size_t usable = 0, broken = 0;
 };
 using AllTopics = std::map<std::string, TopicSamples>;
 
-// Reads the topics of a recording, until one of them has samples of so many seconds.
+// Reads the topics of a recording, until one of them has as many samples as the options want.
 AllTopics ReadAllTopics(const fs::path& path,
                         DatasetFormat format,
-                        double seconds,
+                        const InertialOptions& options,
                         bool& complete) {
   AllTopics topics;
   ReadInertialMessages(path, format, [&](const InertialReading& reading) {
@@ -67,13 +99,16 @@ AllTopics ReadAllTopics(const fs::path& path,
       ++topic.broken;
       return true;
     }
-    complete = topic.samples.empty() || IsWithin(topic.samples.front(), *reading.sample, seconds);
-    if (!complete) return false;
+    ++topic.usable;
     topic.has_rate = topic.has_rate || reading.has_rate;
     topic.has_force = topic.has_force || reading.has_force;
-    topic.samples.push_back(*reading.sample);
-    return true;
+    complete = topic.first.Add(*reading.sample, options);
+    return complete;
   });
+  for (auto& [name, topic] : topics) {
+    if (complete) topic.first.End(options);
+    topic.ordered = std::move(topic.first).Ordered();
+  }
   return topics;
 }
 
@@ -97,18 +132,28 @@ const Topic* First(const AllTopics& topics, bool rate, bool force) {
 
 void JudgeUnusable(const Topic& topic, InertialRecording& recording) {
   JudgeUnusable({topic.second.broken, ""},
-                topic.second.samples.size(),
+                topic.second.usable,
                 "messages of " + Printable(topic.first),
                 recording);
 }
 
+// Throws InputError for a topic that has no samples because its messages cannot be used.
+void RefuseBroken(const AllTopics& topics, const fs::path& path) {
+  for (const Topic& topic : topics) {
+    InertialRecording broken;
+    broken.source = fmt::format("{} of {}", Printable(topic.first), path.string());
+    JudgeUnusable(topic, broken);
+  }
+}
+
 // Joins the samples of two topics. Returns true if the gyroscope's is the faster one.
 bool TakeJoined(const Topic& gyroscope, const Topic& accelerometer, InertialRecording& recording) {
-  const OrderedSamples rates = InOrderOfTime(gyroscope.second.samples);
-  const OrderedSamples forces = InOrderOfTime(accelerometer.second.samples);
+  const OrderedSamples& rates = gyroscope.second.ordered;
+  const OrderedSamples& forces = accelerometer.second.ordered;
   recording.ordered.samples = JoinedSamples(rates.samples, forces.samples);
   recording.ordered.backward = rates.backward + forces.backward;
   recording.ordered.repeated = rates.repeated + forces.repeated;
+  recording.ordered.ahead = rates.ahead + forces.ahead;
   return MedianInterval(rates.samples) <= MedianInterval(forces.samples);
 }
 
@@ -116,17 +161,20 @@ std::optional<InertialRecording> FromTopics(const fs::path& path,
                                             DatasetFormat format,
                                             const InertialOptions& options) {
   InertialRecording recording;
-  AllTopics all = ReadAllTopics(path, format, options.seconds, recording.complete);
+  AllTopics all = ReadAllTopics(path, format, options, recording.complete);
   KeepNamed(options.topics, all);
   const Topic* both = First(all, true, true);
   const Topic* gyroscope = both != nullptr ? both : First(all, true, false);
   const Topic* accelerometer = both != nullptr ? both : First(all, false, true);
-  if (gyroscope == nullptr || accelerometer == nullptr) return std::nullopt;
+  if (gyroscope == nullptr || accelerometer == nullptr) {
+    RefuseBroken(all, path);
+    return std::nullopt;
+  }
   InertialTopics topics{gyroscope->first, accelerometer->first, true};
   const std::string name = Printable(gyroscope->first);
   if (both != nullptr) {
     recording.source = fmt::format("{} of {}", name, path.string());
-    recording.ordered = InOrderOfTime(both->second.samples);
+    recording.ordered = both->second.ordered;
     if (all.size() > 1) {
       recording.notes.push_back(
           fmt::format("{} inertial sensors; {} is used, choose by --topic", all.size(), name));
@@ -182,23 +230,20 @@ void FindCalibration(const InertialOptions& options,
   }
 }
 
-InertialRecording FromRows(const fs::path& file, double seconds) {
+InertialRecording FromRows(const fs::path& file, const InertialOptions& options) {
   InertialRecording recording;
   recording.source = file.string();
   recording.open = [file] { return OpenInertialRows(file); };
   const auto stream = recording.open();
-  OrderedSamples& ordered = recording.ordered;
-  TimeOrder order;
-  while (const auto sample = stream->Next()) {
-    if (!order.Takes(sample->stamp_ns)) continue;
-    const bool first = ordered.samples.empty();
-    recording.complete = first || IsWithin(ordered.samples.front(), *sample, seconds);
-    if (!recording.complete) break;
-    ordered.samples.push_back(*sample);
+  FirstSamples first;
+  std::size_t usable = 0;
+  std::optional<InertialSample> sample;
+  while (recording.complete && (sample = stream->Next())) {
+    ++usable;
+    recording.complete = first.Add(*sample, options);
   }
-  ordered.backward = order.backward();
-  ordered.repeated = order.repeated();
-  const std::size_t usable = ordered.samples.size() + ordered.backward + ordered.repeated;
+  if (recording.complete) recording.complete = first.End(options);
+  recording.ordered = std::move(first).Ordered();
   JudgeUnusable(stream->unusable(), usable, "rows", recording);
   if (usable == 0) throw InputError(file.string() + ": expected samples, found no rows");
   return recording;
@@ -223,27 +268,35 @@ bool IsImuFolder(const fs::path& path) {
   return IsFileThere(path / "data.csv") && path.filename().string().starts_with("imu");
 }
 
+// The folder with imu0 and cam0 of a sequence of EuRoC's form.
+std::optional<fs::path> SensorsOf(const fs::path& path, DatasetFormat format) {
+  if (format != DatasetFormat::kEuroc) return std::nullopt;
+  std::error_code error;
+  return fs::exists(path / "mav0", error) ? path / "mav0" : path;
+}
+
+// The folder where a camera file of a sequence would be.
+fs::path FolderOf(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error) ? path : path.parent_path();
+}
+
 }  // namespace
 
 std::optional<InertialRecording> FindInertial(const fs::path& path,
                                               DatasetFormat format,
                                               const InertialOptions& options) {
-  std::error_code error;
-  const bool folder = fs::is_directory(path, error);
+  const std::optional<fs::path> sensors = SensorsOf(path, format);
   std::optional<InertialRecording> recording;
-  std::optional<fs::path> sensors;
-  if (format == DatasetFormat::kEuroc) {
-    sensors = fs::exists(path / "mav0", error) ? path / "mav0" : path;
-    const fs::path rows = *sensors / "imu0" / "data.csv";
-    if (IsFileThere(rows)) recording = FromRows(rows, options.seconds);
-  } else if (format == DatasetFormat::kBag || format == DatasetFormat::kMcap ||
-             format == DatasetFormat::kRosbag2) {
+  if (format == DatasetFormat::kBag || format == DatasetFormat::kMcap ||
+      format == DatasetFormat::kRosbag2) {
     recording = FromTopics(path, format, options);
-  } else if (folder && IsFileThere(path / "imu.csv")) {
-    recording = FromRows(path / "imu.csv", options.seconds);
+  } else {
+    const fs::path rows = sensors ? *sensors / "imu0" / "data.csv" : path / "imu.csv";
+    if (IsTaken(rows)) recording = FromRows(rows, options);
   }
   if (!recording) return std::nullopt;
-  FindCalibration(options, folder ? path : path.parent_path(), sensors, *recording);
+  FindCalibration(options, FolderOf(path), sensors, *recording);
   return recording;
 }
 
@@ -253,7 +306,7 @@ bool IsInertialAlone(const fs::path& path) {
 
 InertialRecording OpenInertialAlone(const fs::path& path, const InertialOptions& options) {
   const fs::path file = IsImuFolder(path) ? path / "data.csv" : path;
-  InertialRecording recording = FromRows(file, options.seconds);
+  InertialRecording recording = FromRows(file, options);
   const fs::path folder = file.parent_path();
   std::optional<fs::path> sensors;
   if (folder.filename() == "imu0") sensors = folder.parent_path();
@@ -263,15 +316,14 @@ InertialRecording OpenInertialAlone(const fs::path& path, const InertialOptions&
 
 InertialRecording DescribeGivenInertial(std::vector<InertialSample> samples,
                                         const fs::path& path,
+                                        DatasetFormat format,
                                         const InertialOptions& options) {
   InertialRecording recording;
   recording.source = "imu";
   recording.ordered = InOrderOfTime(samples);
   const auto kept = std::make_shared<const std::vector<InertialSample>>(std::move(samples));
   recording.open = [kept] { return std::make_unique<GivenStream>(kept); };
-  std::error_code error;
-  FindCalibration(
-      options, fs::is_directory(path, error) ? path : path.parent_path(), std::nullopt, recording);
+  FindCalibration(options, FolderOf(path), SensorsOf(path, format), recording);
   return recording;
 }
 

@@ -7,6 +7,7 @@
 #include "plumbline/io/datasets/dataset.h"
 #include "plumbline/io/inertial/inertial_stream.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -40,6 +41,7 @@ struct InertialOptions {
   std::vector<std::string> topics = {};
   // How much to read at once, from the first sample on.
   double seconds = std::numeric_limits<double>::infinity();
+  std::size_t most = std::numeric_limits<std::size_t>::max();  // samples
 };
 
 // Finds the samples of a sequence: of EuRoC's form mav0/imu0/data.csv, of other folders imu.csv, of
@@ -51,7 +53,8 @@ struct InertialOptions {
 // beside a file (CameraFileIn), EuRoC's imu0/sensor.yaml with that of cam0.
 //
 // Samples that cannot be used are left out, with a note. Returns nullopt if there are no samples.
-// Throws InputError where more samples cannot be used than can, and for files that are malformed.
+// Throws InputError where more samples cannot be used than can, and for files that are malformed,
+// or where a folder or a pipe has the name of the file.
 std::optional<InertialRecording> FindInertial(const std::filesystem::path& path,
                                               DatasetFormat format,
                                               const InertialOptions& options);
@@ -63,10 +66,10 @@ bool IsInertialAlone(const std::filesystem::path& path);
 InertialRecording OpenInertialAlone(const std::filesystem::path& path,
                                     const InertialOptions& options);
 
-// Returns the sensor whose samples a caller has. What is known of it: options.imu, options.camera,
-// a camera file in the folder `path` or beside the file there.
+// Returns the sensor of a sequence whose samples a caller has. Calibration: as of FindInertial.
 InertialRecording DescribeGivenInertial(std::vector<InertialSample> samples,
                                         const std::filesystem::path& path,
+                                        DatasetFormat format,
                                         const InertialOptions& options);
 
 // Returns the sensor of a live source of this name, with what the files of the options tell.

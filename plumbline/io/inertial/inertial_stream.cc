@@ -9,9 +9,6 @@
 #include "plumbline/io/recordings/recording_formats.h"
 #include "plumbline/io/text_rows.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -24,8 +21,6 @@ namespace plumbline {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kMostValue = 1e6;  // rad/s and m/s^2, beyond all sensors
 
 class RowStream : public InertialStream {
  public:
@@ -49,19 +44,14 @@ class RowStream : public InertialStream {
 InertialReading ReadingOf(const Channel& channel,
                           const StoredMessage& place,
                           const std::optional<InertialMessage>& message) {
-  const auto usable = [](const std::array<double, 3>& v) {
-    return std::all_of(v.begin(), v.end(), [](double x) { return std::abs(x) <= kMostValue; });
-  };
   const auto is_time = [](std::int64_t ns) { return ns > 0 && ns <= kLatestStampNs; };
   InertialReading reading{channel.topic, std::nullopt, false, false};
   InertialSample sample;
   sample.stamp_ns = message && is_time(message->stamp_ns) ? message->stamp_ns : place.logged_ns;
-  if (!message || !usable(message->angular_rate) || !usable(message->specific_force) ||
-      !is_time(sample.stamp_ns)) {
-    return reading;
-  }
+  if (!message || !is_time(sample.stamp_ns)) return reading;
   sample.angular_rate = Eigen::Map<const Eigen::Vector3d>(message->angular_rate.data());
   sample.specific_force = Eigen::Map<const Eigen::Vector3d>(message->specific_force.data());
+  if (!IsPlausible(sample)) return reading;
   reading.has_rate = message->has_rate && !sample.angular_rate.isZero(0);
   reading.has_force = message->has_force && !sample.specific_force.isZero(0);
   reading.sample = sample;
@@ -133,19 +123,30 @@ class TopicStream : public InertialStream {
     while (true) {
       if (auto joined = joiner_.Take()) return joined;
       const auto reading = queue_.Take();
-      if (!reading) return std::nullopt;
+      if (!reading) return EndOfTopics();
       if (!reading->sample) {
         ++unusable_.count;
         continue;
       }
       if (!apart) return reading->sample;
-      const bool rates = reading->topic == topics_.gyroscope;
-      if (!(rates ? rate_order_ : force_order_).Takes(reading->sample->stamp_ns)) continue;
-      rates ? joiner_.AddRates(*reading->sample) : joiner_.AddForces(*reading->sample);
+      (reading->topic == topics_.gyroscope ? rate_order_ : force_order_).Add(*reading->sample);
+      Join();
     }
   }
 
  private:
+  void Join() {
+    while (const auto rates = rate_order_.Take()) joiner_.AddRates(*rates);
+    while (const auto forces = force_order_.Take()) joiner_.AddForces(*forces);
+  }
+
+  std::optional<InertialSample> EndOfTopics() {
+    rate_order_.End();
+    force_order_.End();
+    Join();
+    return joiner_.Take();
+  }
+
   InertialTopics topics_;
   TimeOrder rate_order_, force_order_;
   SampleJoiner joiner_;
@@ -177,11 +178,11 @@ Expected<InertialSample, std::string> ParseInertialSample(std::span<const std::s
     if (!value) {
       return fmt::format("expected a number in column {}, found {}", k + 2, InQuotes(text));
     }
-    if (std::abs(*value) > kMostValue) {
-      return "expected rates in rad/s and forces in m/s^2, found " + InQuotes(text);
-    }
     const auto axis = static_cast<Eigen::Index>(k % 3);
     (k < 3 ? sample.angular_rate : sample.specific_force)(axis) = *value;
+    if (!IsPlausible(sample)) {
+      return "expected rates in rad/s and forces in m/s^2, found " + InQuotes(text);
+    }
   }
   return sample;
 }
