@@ -103,5 +103,21 @@ TEST(InertialFeed, GivesTheSamplesOfALiveSourceInOrder) {
   EXPECT_TRUE(none.UpTo(10'000'000).empty());
 }
 
+TEST(InertialFeed, OneStampFarAheadDoesNotEndALiveSensor) {
+  const InertialRecording recording;
+  InertialFeed feed(&recording);
+  std::size_t given = 0;
+  for (std::int64_t i = 0; i < 100; ++i) {
+    const std::int64_t ahead = i == 3 ? 15 * kNsPerSecond : 0;
+    feed.Add(std::vector<InertialSample>{{i * kInterval + ahead, {}, {}}});
+    given += feed.UpTo(i * kInterval).size();
+  }
+  EXPECT_EQ(given, 99U);
+  OrderedSamples left_out;
+  feed.CountInto(left_out);
+  EXPECT_EQ(left_out.ahead, 1U);
+  EXPECT_EQ(left_out.backward, 0U);
+}
+
 }  // namespace inertial_input_test
 }  // namespace plumbline
