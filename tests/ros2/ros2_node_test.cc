@@ -105,26 +105,30 @@ class Ros2NodeTest : public testing::Test {
 // to the base.
 void ExpectOdometry(dds_entity_t odometry, dds_entity_t tf, std::size_t frames) {
   std::size_t with_covariance = 0, count = 0;
-  while (DdsPeer::Take<Odometry>(odometry, [&](const Odometry& message) {
-    EXPECT_STREQ(message.header.frame_id, "odom");
-    EXPECT_STREQ(message.child_frame_id, "cam0");
-    ++count;
-    if (message.pose.covariance[0] > 0) ++with_covariance;
-    EXPECT_EQ(message.pose.covariance[1], message.pose.covariance[6]);
-  })) {
-  }
-  EXPECT_EQ(count, frames);
+  const auto expect_frames = [&](const std::function<bool()>& take) {
+    WaitUntil([&] {
+      while (take()) ++count;
+      return count >= frames;
+    });
+    EXPECT_EQ(std::exchange(count, 0), frames);
+  };
+  expect_frames([&] {
+    return DdsPeer::Take<Odometry>(odometry, [&](const Odometry& message) {
+      EXPECT_STREQ(message.header.frame_id, "odom");
+      EXPECT_STREQ(message.child_frame_id, "cam0");
+      if (message.pose.covariance[0] > 0) ++with_covariance;
+      EXPECT_EQ(message.pose.covariance[1], message.pose.covariance[6]);
+    });
+  });
   EXPECT_GE(with_covariance, frames - 2);
-  count = 0;
-  while (DdsPeer::Take<Transforms>(tf, [&](const Transforms& message) {
-    ++count;
-    ASSERT_EQ(message.transforms._length, 2U);
-    EXPECT_STREQ(message.transforms._buffer[0].child_frame_id, "cam0");
-    EXPECT_STREQ(message.transforms._buffer[1].child_frame_id, "odom");
-    EXPECT_EQ(message.transforms._buffer[1].transform.rotation.w, 1);
-  })) {
-  }
-  EXPECT_EQ(count, frames);
+  expect_frames([&] {
+    return DdsPeer::Take<Transforms>(tf, [&](const Transforms& message) {
+      ASSERT_EQ(message.transforms._length, 2U);
+      EXPECT_STREQ(message.transforms._buffer[0].child_frame_id, "cam0");
+      EXPECT_STREQ(message.transforms._buffer[1].child_frame_id, "odom");
+      EXPECT_EQ(message.transforms._buffer[1].transform.rotation.w, 1);
+    });
+  });
 }
 
 // Who comes late gets the map and the state. `publish`: one more frame.
