@@ -222,18 +222,7 @@ TEST(Ros2BrokenMessages, ImagesOfBothByteOrdersGivePoses) {
   const auto sequence = FindData("euroc/MH_01_easy_first250");
   if (!sequence) GTEST_SKIP() << "the sequence is not there";
   const auto dataset = OpenDataset(*sequence, {});
-  Ros2Node node({"left/image:=/cam0/image_raw",
-                 "right/image:=/cam1/image_raw",
-                 "-p",
-                 "sensor:=stereo",
-                 "-p",
-                 "camera:=euroc",
-                 "-p",
-                 "base_frame:=cam0",
-                 "-p",
-                 "reliability:=reliable",
-                 "-p",
-                 "options.slam.mode:=lockstep"});
+  Ros2Node node(PairArguments());
   DdsPeer peer(Domain());
   const std::string type = DdsName("sensor_msgs/Image");
   const auto left = peer.MakeRawWriter("rt/cam0/image_raw", type);

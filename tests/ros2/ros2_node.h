@@ -42,6 +42,27 @@ struct NodeSurroundings {
   bool own_network = false;
 };
 
+// Arguments of a node for the stereo pair of EuRoC, in lockstep; `more` are added.
+inline std::vector<std::string> PairArguments(const std::vector<std::string>& more = {}) {
+  std::vector<std::string> all = {"--ros-args",
+                                  "-r",
+                                  "left/image:=/cam0/image_raw",
+                                  "-r",
+                                  "right/image:=/cam1/image_raw",
+                                  "-p",
+                                  "sensor:=stereo",
+                                  "-p",
+                                  "camera:=euroc",
+                                  "-p",
+                                  "base_frame:=cam0",
+                                  "-p",
+                                  "reliability:=reliable",
+                                  "-p",
+                                  "options.slam.mode:=lockstep"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
 // plumbline-ros2 while it runs, with its lines on standard error.
 class Ros2Node {
  public:

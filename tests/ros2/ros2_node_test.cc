@@ -60,28 +60,6 @@ class PairPublisher {
   dds_entity_t left_, right_;
 };
 
-const std::vector<std::string> kPairArguments = {"--ros-args",
-                                                 "-r",
-                                                 "left/image:=/cam0/image_raw",
-                                                 "-r",
-                                                 "right/image:=/cam1/image_raw",
-                                                 "-p",
-                                                 "sensor:=stereo",
-                                                 "-p",
-                                                 "camera:=euroc",
-                                                 "-p",
-                                                 "base_frame:=cam0",
-                                                 "-p",
-                                                 "reliability:=reliable",
-                                                 "-p",
-                                                 "options.slam.mode:=lockstep"};
-
-std::vector<std::string> PairArguments(const std::vector<std::string>& more = {}) {
-  std::vector<std::string> all = kPairArguments;
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
-}
-
 Rigid3 MotionOf(const geometry_msgs_msg_dds__Pose_& pose) {
   const auto& q = pose.orientation;
   const auto& p = pose.position;
