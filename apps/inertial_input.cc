@@ -7,6 +7,7 @@
 #include "plumbline/base/units.h"
 #include "plumbline/inertial/inertial_check.h"
 #include "plumbline/inertial/rate_alignment.h"
+#include "plumbline/io/inertial/inertial_calibration_file.h"
 #include "plumbline/io/trajectory_io.h"
 
 #include "apps/command_inputs.h"
@@ -25,11 +26,7 @@ constexpr const char* kLeftOut = "the inertial sensor is left out: ";
 
 // Throws InputError for a sensor whose place does not say how it is turned against the images.
 void CheckPlace(Rotation rotation, const InertialRecording& recording) {
-  if (!recording.calibration.imu_from_left) {
-    throw InputError(recording.source +
-                     ": expected the place of the sensor at the camera (imu_from_left of a camera "
-                     "file, T_cam_imu of Kalibr), found none");
-  }
+  CheckPlaceIsKnown(recording.calibration, recording.source);
   if (rotation != Rotation::kAuto && rotation != Rotation::kNone) {
     throw InputError(
         "--rotate: expected images as delivered, to which the place of an inertial "
@@ -38,8 +35,8 @@ void CheckPlace(Rotation rotation, const InertialRecording& recording) {
   }
 }
 
-// What `find` finds, if --imu asks for a sensor. Throws InputError for one that cannot be used, or
-// none, with a --imu FILE; with auto it is left out with a note.
+// Returns what `find` finds, if --imu asks for a sensor. Throws InputError for one that cannot be
+// used, or none, with a --imu FILE; with auto it is left out with a note.
 template <class Find>
 std::optional<InertialRecording> FindUsable(const InertialRequest& request,
                                             const std::string& source,

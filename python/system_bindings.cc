@@ -43,11 +43,7 @@ std::unique_ptr<RunningSystem> MakeSystem(const Calibration& calibration,
   if (!preset.is_none()) name = preset.cast<std::string>();
   std::optional<InertialCalibration> inertial;
   if (imu) inertial = ReadInertialCalibration(*imu);
-  if (inertial && !inertial->imu_from_left) {
-    throw InputError(
-        imu->string() +
-        ": expected the place of the sensor at the camera (imu_from_left), found none");
-  }
+  if (inertial) CheckPlaceIsKnown(*inertial, imu->string());
   const py::gil_scoped_release release;
   auto system = std::make_unique<RunningSystem>(calibration, options, std::move(name));
   if (inertial) system->UseInertial(*inertial);

@@ -38,11 +38,9 @@ std::optional<InertialCalibration> FindInertialCalibration(const std::string& im
   InertialCalibration found;
   if (wanted) found = ReadInertialCalibration(imu);
   if (const auto more = ToldBy(camera)) found = Completed(found, *more);
-  if (found.imu_from_left) return found;
-  if (!wanted) return std::nullopt;
-  throw InputError(imu +
-                   ": expected the place of the sensor at the camera (imu_from_left of a "
-                   "camera file, T_cam_imu of Kalibr), found none");
+  if (!wanted && !found.imu_from_left) return std::nullopt;
+  CheckPlaceIsKnown(found, imu);
+  return found;
 }
 
 std::optional<InertialSample> SampleOf(const InertialMessage& message) {

@@ -214,6 +214,13 @@ InertialCalibration ReadInertialCalibration(const std::filesystem::path& path,
       "found none");
 }
 
+void CheckPlaceIsKnown(const InertialCalibration& calibration, const std::string& source) {
+  if (calibration.imu_from_left) return;
+  throw InputError(source +
+                   ": expected the place of the sensor at the camera (imu_from_left of a camera "
+                   "file, T_cam_imu of Kalibr), found none");
+}
+
 InertialCalibration Completed(const InertialCalibration& over, const InertialCalibration& under) {
   InertialCalibration all = over;
   if (!all.imu_from_left) all.imu_from_left = under.imu_from_left;

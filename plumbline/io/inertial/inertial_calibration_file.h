@@ -49,6 +49,9 @@ std::optional<InertialCalibration> ParseInertialCalibration(
 InertialCalibration ReadInertialCalibration(
     const std::filesystem::path& path, const std::optional<Rigid3>& body_from_left = std::nullopt);
 
+// Throws InputError, which begins with `source`, if the place of the sensor is not known.
+void CheckPlaceIsKnown(const InertialCalibration& calibration, const std::string& source);
+
 // Returns what `over` tells, and what only `under` tells.
 InertialCalibration Completed(const InertialCalibration& over, const InertialCalibration& under);
 
