@@ -28,7 +28,7 @@ struct InputFrame {
   std::int64_t stamp_ns = 0;
   std::optional<SensorFrame> frame;  // nullopt: it could not be read
   std::string reason;                // then: a word for tables
-  // Of a live source: samples of its inertial sensor since the input frame before, those of frames
+  // Samples of the inertial sensor of a live source since the input frame before, those of frames
   // that were not selected included.
   std::vector<InertialSample> inertial = {};
 };

@@ -75,7 +75,7 @@ class InertialFeed {
   std::span<const InertialSample> Telling();
   // Adds how many samples were left out so far as out of order.
   void CountInto(OrderedSamples& ordered) const { order_.CountInto(ordered); }
-  // What of a sequence could not be used so far.
+  // The samples of a sequence that could not be used so far.
   const UnusableSamples& unusable() const { return unusable_; }
   // Samples that are held.
   std::size_t held() const { return waiting_.size() + given_.size() + stretch_.held(); }

@@ -48,7 +48,7 @@ class InventedTransport : public Transport {
   std::map<std::string, Receive> receivers_;
 };
 
-// What a node does with images before they are frames.
+// Handles images as a node does before they are frames.
 void Take(const FrameImages& images, bool is_depth) {
   const ImageSize wanted{4, 4};
   try {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the end of a run takes, by step, on maps that runs left unadjusted
+// This benchmark times the end of a run, by step, on maps that runs left unadjusted
 // (--set mapping.final_adjustment_keyframes=0): final_adjustment MAP.plb...
 // Prints seconds of each step, and the largest memory so far; writes the adjusted keyframes
 // into MAP.txt, beside each map, for `plumbline evaluate`.

@@ -221,7 +221,7 @@ void MeasureFile(const LongDrive& drive) {
              keyframes);
 }
 
-// What the end of a run takes: the whole map adjusted twice, and misfits taken out.
+// Measures the end of a run: the whole map is adjusted twice, and misfits are taken out.
 void MeasureEnd(LongDrive& drive) {
   std::size_t directions = 0, lines = 0;
   const double common = Measure([&] { directions = CommonDirections(drive.map).size(); });

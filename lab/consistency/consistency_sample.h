@@ -14,7 +14,7 @@
 
 namespace plumbline {
 
-// What is held against its covariance.
+// The kinds of errors that are held against their covariance.
 enum class ConsistencyKind {
   kPoint,          // a corner, against the landmark of its earlier observations
   kDisparity,      // its disparity, the same
@@ -60,8 +60,8 @@ struct ConsistencySample {
   // Depth over the (geometric) mean of the depths from which earlier keyframes saw it, less 1.
   double approach = 0;
   double sigma_px = 0;  // deviation of the feature (LineFeature, PointFeature)
-  // Of segments: e in px, the distance of the middle from the expected line, and half the
-  // difference of the distances of end and start; and the deviations promised for both.
+  // The components of e for segments, in px: the distance of the middle from the expected line, and
+  // half the difference of the distances of end and start; and the deviations promised for both.
   Eigen::Vector2d across_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d promised_px = Eigen::Vector2d::Zero();
 };
