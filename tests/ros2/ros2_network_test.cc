@@ -159,17 +159,20 @@ TEST_F(Ros2NetworkTest, FindsOthersInAnotherNetwork) {
   ASSERT_TRUE(WaitUntil(
       [&] { return Shell(other + "ip link show plumbline1 | grep -q 'state UP'") == 0; }));
   ::kill(node.pid(), SIGCONT);
-  DdsPeer peer(Domain(), "plumbline0");
-  const auto images = MakeImageWriter(peer, "rt/cam0/image_raw");
-  const auto poses = peer.MakeReader("rt/plumbline/pose", geometry_msgs_msg_dds__PoseStamped__desc);
-  ASSERT_TRUE(WaitUntil([&] { return DdsPeer::HasReader(images) && DdsPeer::HasWriter(poses); }))
-      << node.Said();
-  std::size_t index = 0;
-  EXPECT_TRUE(WaitUntil([&] {
-    Publish(images, index++ % dataset_->size());
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    return TakePose(poses);
-  })) << node.Said();
+  {  // The participant has to end before the node, whose network goes with it.
+    DdsPeer peer(Domain(), "plumbline0");
+    const auto images = MakeImageWriter(peer, "rt/cam0/image_raw");
+    const auto poses =
+        peer.MakeReader("rt/plumbline/pose", geometry_msgs_msg_dds__PoseStamped__desc);
+    ASSERT_TRUE(WaitUntil([&] { return DdsPeer::HasReader(images) && DdsPeer::HasWriter(poses); }))
+        << node.Said();
+    std::size_t index = 0;
+    EXPECT_TRUE(WaitUntil([&] {
+      Publish(images, index++ % dataset_->size());
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      return TakePose(poses);
+    })) << node.Said();
+  }
   EXPECT_EQ(node.Stop(), 0) << node.Said();
 }
 
