@@ -107,8 +107,8 @@ function buildEvents() {
   const body = sectionBody("events");
   if (events.length === 0) {
     body.append(note(
-        "No place was recognized: no loop was closed, no maps were joined, and the camera was " +
-        "not looked for and found after it was lost."));
+        "No place was recognized: no loop was closed, no maps were joined, and no lost camera was " +
+        "found."));
     return;
   }
   const heads = ["what", "when", "what was known", "agreement", "by chance", "moved"];

@@ -143,7 +143,7 @@ function buildView(figure, bar) {
 function mapText(map) {
   const parts = [
     plural(map.keyframe_count, "keyframe"), plural(map.point_count, "point"),
-    plural(map.line_count, "line")
+    plural(map.line_count, "clean line")
   ];
   const ofThisRun = map.keyframe_frames.length;
   if (ofThisRun < map.keyframe_count) {
