@@ -227,6 +227,7 @@ void PrintResult(const RunResult& result, const Dataset& dataset, const std::str
       Counted(counts.points, "point"),
       Counted(counts.lines, "line"),
       counts.maps > 1 ? fmt::format(" (largest of {} maps)", counts.maps) : std::string());
+  if (const auto gyroscope = DescribeGyroscope(result)) std::cout << *gyroscope << '\n';
   const auto error = CompareWithGroundTruth(result, dataset);
   if (error) {
     const double scale = error->reference_from_estimate.scale;

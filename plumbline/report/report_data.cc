@@ -85,6 +85,7 @@ Json Run(const RunResult& result, const Dataset& dataset, const ReportContext& c
   std::string command = "plumbline run";
   for (const std::string& word : description.arguments) command += " " + ShellWord(word);
   const auto rate = dataset.calibration().rate_hz;
+  const auto gyroscope = DescribeGyroscope(result);
   return {{"name", dataset.info().name},
           {"path", description.data_path},
           {"format", FormatName(dataset.info().format)},
@@ -98,6 +99,7 @@ Json Run(const RunResult& result, const Dataset& dataset, const ReportContext& c
           {"seed", description.seed},
           {"command", description.arguments.empty() ? Json(nullptr) : Json(command)},
           {"notes", NotesOf(description, dataset)},
+          {"gyroscope", gyroscope ? Json(*gyroscope) : Json(nullptr)},
           {"wall_seconds", Rounded(context.resources.wall_seconds, 3)},
           {"cpu_seconds", Rounded(context.resources.cpu_seconds, 3)},
           {"peak_memory_mb", Rounded(context.resources.peak_memory_mb, 1)},

@@ -102,6 +102,12 @@ function shownText() {
       "frames.csv and timing.csv have every one. ";
 }
 
+// Nothing where the run had no gyroscope.
+function gyroscopeText() {
+  const {gyroscope} = data.run;
+  return gyroscope ? ` ${gyroscope[0].toUpperCase()}${gyroscope.slice(1)}.` : "";
+}
+
 // Nothing where the run came to its end.
 function interruption() {
   const {interrupted, frames_chosen: chosen} = data.run;
@@ -115,6 +121,7 @@ function interruption() {
 function buildHeader() {
   const run = data.run, c = data.counts;
   const total = data.stages.find((stage) => stage.name === "total");
+  const waits = data.stages.some((stage) => stage.name === "wait" && stage.median > 1);
   const sensor = {mono: "monocular", stereo: "stereo", rgbd: "RGB-D"}[run.sensor] || run.sensor;
   const duration = frameCount > 1 ? frames.seconds[frameCount - 1] : 0;
   const nav = [
@@ -137,7 +144,8 @@ function buildHeader() {
           accuracyTiles(),
           tile(
               "Speed", digits(framesPerSecond()), "frames/s",
-              total ? `a frame: median ${digits(total.median)} ms, p95 ${digits(total.p95)} ms` :
+              total ? `image to pose: median ${digits(total.median)} ms, p95 ` +
+                      `${digits(total.p95)} ms${waits ? ", with waiting for its turn" : ""}` :
                       "no frame was processed",
               `${digits(run.wall_seconds)} s in all, ${digits(run.cpu_seconds)} s of CPU`),
           tile("Peak memory", digits(run.peak_memory_mb), "MB"),
@@ -147,7 +155,8 @@ function buildHeader() {
               c.maps > 1 ? `largest of ${c.maps} maps` :
                   c.maps === 1 ? "one map" :
                                  "no map")),
-      make("p", {class: "note after"}, ...changedText(), run.notes.join(" "), shownText()),
+      make("p", {class: "note after"}, ...changedText(), run.notes.join(" "), shownText(),
+          gyroscopeText()),
       make(
           "nav", {"aria-label": "Sections"},
           nav.map(([id, name]) => make("a", {href: "#" + id}, name))));

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -238,6 +239,24 @@ Json Described(const InertialResult& inertial) {
 }
 
 }  // namespace
+
+std::optional<std::string> DescribeGyroscope(const RunResult& result) {
+  if (!result.inertial || result.inertial->turns == 0) return std::nullopt;
+  const double degrees = 180 / std::numbers::pi, milliseconds = 1e3;
+  const GyroscopeErrors &errors = result.inertial->errors, &sigmas = result.inertial->sigmas;
+  const auto deviation = [&](int first) { return sigmas.segment<3>(first).maxCoeff(); };
+  return fmt::format(
+      "gyroscope: {} of {} turns used; found beyond its calibration: bias {:.2f} +-{:.2f} deg/s, "
+      "rotation {:.2f} +-{:.2f} deg, clock {:.1f} +-{:.1f} ms",
+      result.inertial->turns - result.inertial->contradicted,
+      result.inertial->turns,
+      degrees * errors.head<3>().norm(),
+      degrees * deviation(0),
+      degrees * errors.segment<3>(3).norm(),
+      degrees * deviation(3),
+      milliseconds * errors[6],
+      milliseconds * sigmas[6]);
+}
 
 std::vector<std::string> NotesOf(const RunDescription& description, const Dataset& dataset) {
   std::vector<std::string> notes = dataset.info().notes;

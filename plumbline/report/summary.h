@@ -52,6 +52,10 @@ struct LineMemory {
 };
 LineMemory MeasureLineMemory(const RunResult& result);
 
+// Returns a sentence on what the gyroscope took part in, and what its calibration lacks as the run
+// found it; nullopt where no turn of it was compared with the camera's.
+std::optional<std::string> DescribeGyroscope(const RunResult& result);
+
 // Returns the reason why CompareWithGroundTruth has no errors for a run on this data: "no ground
 // truth with the data", or the file and line at fault.
 std::string WhyNoErrors(const DatasetInfo& info);

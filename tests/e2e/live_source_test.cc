@@ -124,6 +124,12 @@ TEST(RunLive, GivesTheBytesOfTheFolderFromAPipeWithAnInertialSensor) {
                                options,
                                Quoted(folder / name)));
     ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const auto says = [&](const std::string& text) {
+      return text.find(" turns used; found beyond its calibration: bias ") != std::string::npos;
+    };
+    const bool used = name == "folder" || name == "inline";
+    EXPECT_EQ(says(outcome.out), used) << outcome.out;
+    EXPECT_EQ(says(Contents(folder / name / "report.html")), used) << name;
   };
   run("folder", "--imu " + Quoted(imu), *data);
   ExpectSameResults(folder / "folder", folder / "fed");
