@@ -234,6 +234,38 @@ TEST(SaveAtlas, KeepsNumbersThatNeedDoublePrecision) {
   ExpectSame(saved.atlas.active(), loaded.atlas.active());
 }
 
+// Numbers that do not vary take next to no bytes.
+TEST(SaveAtlas, KeepsLandmarksThatAreAlike) {
+  const ScratchFolder folder;
+  constexpr int kPoints = 500;
+  SavedAtlas saved;
+  saved.context.camera = kMapCamera;
+  Map& map = saved.atlas.Start();
+  MapEdit edits;
+  for (std::int64_t k = 0; k < 2; ++k) {
+    KeyFrame keyframe = MakeKeyFrame(k, k - 1);
+    Features features = keyframe.frame.features();
+    features.points.resize(kPoints, features.points[0]);
+    features.point_disparity.resize(kPoints);
+    keyframe.frame.indexed = IndexFeatures(kMapCamera, features);
+    keyframe.frame.points.resize(kPoints);
+    edits.push_back(edit::AddKeyFrame{keyframe});
+  }
+  for (int i = 0; i < kPoints; ++i) {
+    MapPoint point;
+    point.id = PointId{i};
+    point.created_by = KeyFrameId{0};
+    point.position = {0, 0, 5};
+    point.view_direction = Eigen::Vector3d::UnitZ();
+    point.observations = {{KeyFrameId{0}, i}, {KeyFrameId{1}, i}};
+    edits.push_back(edit::AddPoint{point});
+  }
+  map.Apply(edits);
+  const auto file = Saved(folder, saved);
+  EXPECT_LT(std::filesystem::file_size(file), 40 * kPoints);
+  ExpectSame(LoadAtlas(file).atlas.active().points(), map.points());
+}
+
 TEST(LoadMap, GivesTheActiveMap) {
   const ScratchFolder folder;
   const SavedAtlas saved = MakeSavedAtlas();

@@ -244,11 +244,12 @@ void ReadKeyFrames(SectionReader& file,
 
 template <class Landmark>
 void ReadLandmarks(SectionReader& file, SectionKind kind, std::int64_t count, MapBuilder& builder) {
-  constexpr std::size_t kLeastBytes = 60;  // least bytes of a landmark
   for (std::int64_t done = 0; done < count;) {
     const std::string contents = NextSectionOfKind(file, kind);
     ByteReader reader = ReaderOf(contents, file.source());
-    std::vector<Landmark> landmarks(TransferCount(reader, 0, kLeastBytes));
+    const std::size_t stored = TransferCount(reader, 0);
+    if (stored > kSectionLandmarks) FailMap(file.source(), "too many landmarks in a section");
+    std::vector<Landmark> landmarks(stored);
     LandmarkList<Landmark> list;
     for (Landmark& landmark : landmarks) list.push_back(&landmark);
     TransferAllOf(reader, list, DescriptorsIn<Landmark>(builder.map()));
