@@ -5,7 +5,9 @@
 #include "plumbline/base/statistics.h"
 #include "plumbline/base/units.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 
 namespace plumbline {
 namespace {
@@ -24,27 +26,35 @@ bool IsPlausible(const InertialSample& sample) {
 }
 
 void TimeOrder::Add(const InertialSample& sample) {
+  constexpr std::size_t kMostWaiting = 5;
   const std::int64_t stamp_ns = sample.stamp_ns;
-  if (waiting_ && waiting_->stamp_ns - stamp_ns > kNsPerSecond / 2 &&
+  const auto later = std::ranges::find_if(
+      waiting_, [&](const InertialSample& other) { return other.stamp_ns > stamp_ns; });
+  if (later != waiting_.end() && later->stamp_ns - stamp_ns > kNsPerSecond / 2 &&
       (!last_ns_ || stamp_ns > *last_ns_)) {
-    waiting_.reset();
-    ++ahead_;
+    ahead_ += static_cast<std::size_t>(waiting_.end() - later);
+    waiting_.erase(later, waiting_.end());
   }
-  const auto newest_ns = waiting_ ? std::optional(waiting_->stamp_ns) : last_ns_;
+  const auto newest_ns = waiting_.empty() ? last_ns_ : std::optional(waiting_.back().stamp_ns);
   if (newest_ns && stamp_ns <= *newest_ns) {
     ++(stamp_ns == *newest_ns ? repeated_ : backward_);
     return;
   }
-  Release();
-  waiting_ = sample;
-  if (last_ns_ && stamp_ns - *last_ns_ <= kNsPerSecond) Release();
+  waiting_.push_back(sample);
+  const bool follows = last_ns_ && waiting_.front().stamp_ns - *last_ns_ <= kNsPerSecond;
+  if (!follows && waiting_.size() < kMostWaiting) return;
+  // What is far ahead of others that wait goes on waiting.
+  Release(std::ranges::adjacent_find(waiting_, [](const auto& a, const auto& b) {
+    return b.stamp_ns - a.stamp_ns > kNsPerSecond;
+  }));
 }
 
-void TimeOrder::Release() {
-  if (!waiting_) return;
-  last_ns_ = waiting_->stamp_ns;
-  ready_.push_back(*waiting_);
-  waiting_.reset();
+void TimeOrder::Release(Waiting::const_iterator last) {
+  if (waiting_.empty()) return;
+  const auto end = last == waiting_.end() ? last : std::next(last);
+  last_ns_ = std::prev(end)->stamp_ns;
+  ready_.insert(ready_.end(), waiting_.cbegin(), end);
+  waiting_.erase(waiting_.cbegin(), end);
 }
 
 std::optional<InertialSample> TimeOrder::Take() {

@@ -18,7 +18,7 @@ struct OrderedSamples {
   std::vector<InertialSample> samples;  // stamps strictly increasing
   std::size_t backward = 0;             // left out: their stamp is before that of a former sample
   std::size_t repeated = 0;             // left out: their stamp is that of the former sample
-  std::size_t ahead = 0;                // left out: far later than the former and the next one
+  std::size_t ahead = 0;                // left out: far later than those before and after them
 };
 
 // Returns true if the values are those of a sensor in rad/s and m/s^2: numbers of at most 1e6.
@@ -26,23 +26,26 @@ bool IsPlausible(const InertialSample& sample);
 
 // Passes on the samples that are in order of time. One whose stamp does not increase is left out:
 // which of two is right is not known, and a stamp that was believed cannot be taken back in a live
-// run. The first one, and one that is more than 1 s ahead of the former, waits for the next: if
-// that is more than 0.5 s before it, the one that waits has a wrong stamp and is left out.
+// run. The first ones, and those from one on that is more than 1 s ahead of the former, wait until
+// there are five: if one comes that is more than 0.5 s before them, they have wrong stamps and are
+// left out.
 class TimeOrder {
  public:
   void Add(const InertialSample& sample);
-  // No more samples follow: one that waits is in order.
-  void End() { Release(); }
+  // No more samples follow: those that wait are in order.
+  void End() { Release(waiting_.end()); }
   // Returns the next sample in order; nullopt until more are added.
   std::optional<InertialSample> Take();
   // Adds the numbers of samples that were left out so far.
   void CountInto(OrderedSamples& ordered) const;
 
  private:
-  void Release();
+  using Waiting = std::vector<InertialSample>;
+  // Those that wait up to this one, or all, are in order.
+  void Release(Waiting::const_iterator last);
 
   std::optional<std::int64_t> last_ns_;  // of those in order
-  std::optional<InertialSample> waiting_;
+  Waiting waiting_;                      // stamps increase
   std::deque<InertialSample> ready_;
   std::size_t backward_ = 0, repeated_ = 0, ahead_ = 0;
 };

@@ -118,6 +118,19 @@ TEST(InOrderOfTime, LeavesOutASampleThatIsFarAheadOfTheNextOne) {
   EXPECT_EQ(first.ahead, 1U);
   EXPECT_EQ(StampsOf(InOrderOfTime(Samples{At(0), At(15'005 * kMs), At(10 * kMs)})),
             (Stamps{0, 10}));
+  // Up to four in a row, whatever they are, and the first ones.
+  const OrderedSamples several = InOrderOfTime(Samples{At(kYears),
+                                                       At(kYears + 1),
+                                                       At(0),
+                                                       At(5 * kMs),
+                                                       At(kYears),
+                                                       At(3 * kYears),
+                                                       At(4 * kYears),
+                                                       At(4 * kYears + 1),
+                                                       At(10 * kMs),
+                                                       At(15 * kMs)});
+  EXPECT_EQ(StampsOf(several), (Stamps{0, 5, 10, 15}));
+  EXPECT_EQ(several.ahead, 6U);
   // A pause is none, also where a sample goes back behind it.
   const OrderedSamples pause =
       InOrderOfTime(Samples{At(0), At(3000 * kMs), At(2999 * kMs), At(3005 * kMs), At(9000 * kMs)});
@@ -126,15 +139,15 @@ TEST(InOrderOfTime, LeavesOutASampleThatIsFarAheadOfTheNextOne) {
   EXPECT_EQ(pause.backward, 1U);
 }
 
-TEST(TimeOrder, WaitsForTheNextWhereASampleIsFarAhead) {
+TEST(TimeOrder, WaitsForFiveWhereASampleIsFarAhead) {
   TimeOrder order;
   std::vector<std::size_t> taken;
-  for (const std::int64_t ms : {0, 5, 10, 2000, 2005, 2010}) {
+  for (const std::int64_t ms : {0, 5, 10, 15, 20, 25, 2000, 2005, 2010, 2015, 2020, 2025}) {
     order.Add(At(ms * kMs));
     taken.push_back(0);
     while (order.Take()) ++taken.back();
   }
-  EXPECT_EQ(taken, (std::vector<std::size_t>{0, 2, 1, 0, 2, 1}));
+  EXPECT_EQ(taken, (std::vector<std::size_t>{0, 0, 0, 0, 5, 1, 0, 0, 0, 0, 5, 1}));
 }
 
 TEST(IsPlausible, RefusesWhatNoSensorMeasures) {
