@@ -26,8 +26,8 @@ std::vector<MemoryOfKind> MemoryOf(const Atlas& atlas) {
     for (const auto& [id, keyframe] : map.keyframes()) {
       const Frame& frame = keyframe.frame;
       const Features& features = frame.features();
-      point_features += HeapBytes(features.points) + HeapBytes(features.point_disparity);
-      line_features += HeapBytes(features.lines) + HeapBytes(features.line_right);
+      point_features += HeapBytes(features.points) + features.point_disparity.Bytes();
+      line_features += HeapBytes(features.lines) + features.line_right.Bytes();
       index += frame.indexed->point_grid.Bytes();
       matches += HeapBytes(frame.points) + HeapBytes(frame.lines);
       keyframes += sizeof(KeyFrame) + sizeof(FrameFeatures);

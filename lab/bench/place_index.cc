@@ -62,7 +62,7 @@ std::vector<Feature> FeaturesAt(std::string_view kind,
   for (std::int64_t i = first; i < first + count; ++i) {
     Feature feature;
     feature.descriptor = LandmarkDescriptor(kind, static_cast<std::uint64_t>(i));
-    feature.response = rng.Uniform();
+    feature.response = static_cast<decltype(feature.response)>(rng.Uniform(0, 65535));
     Disturb(rng, kBetweenViews, feature.descriptor);
     features.push_back(feature);
   }

@@ -8,8 +8,11 @@
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/se3.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -61,20 +64,22 @@ void TransferDescriptors(Archive& archive, Items& items, const Get& get) {
   for (auto& item : items) Transfer(archive, get(item));
 }
 
-// Transfers the presence of each item of a list of optionals; returns pointers to the present ones.
+// Transfers the presence of each value of an OptionalList; returns pointers to the present ones.
 template <class Archive, class List>
 auto TransferPresence(Archive& archive, List& list) {
-  using Item = std::remove_reference_t<decltype(*list.front())>;
   std::vector<std::uint8_t> present(list.size());
   for (std::size_t i = 0; i < list.size(); ++i) present[i] = list[i] ? 1 : 0;
   TransferColumn(
       archive, present, [](auto& flag) -> auto& { return flag; });
-  std::vector<Item*> there;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    if constexpr (Archive::kReading) {
-      if (present[i] != 0) list[i].emplace();
+  if constexpr (Archive::kReading) {
+    using Item = typename decltype(list.values())::value_type;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (present[i] != 0) list.Set(i, Item());
     }
-    if (list[i]) there.push_back(&*list[i]);
+  }
+  std::vector<decltype(list.Find(0))> there;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i]) there.push_back(list.Find(i));
   }
   return there;
 }
@@ -91,6 +96,26 @@ void TransferSegments(Archive& archive, Items& items, const Get& get) {
       archive, items, [&](auto& i) -> auto& { return get(i).end.y(); });
 }
 
+// Transfers a column of numbers that are floats or unsigned in memory and doubles in the archive.
+// Those read become the nearest number that fits.
+template <class Archive, class Items, class Get>
+void TransferAsDoubles(Archive& archive, Items& items, const Get& get) {
+  std::vector<double> column;
+  column.reserve(items.size());
+  for (const auto& item : items) column.push_back(static_cast<double>(get(item)));
+  TransferColumn(
+      archive, column, [](auto& value) -> auto& { return value; });
+  if constexpr (Archive::kReading) {
+    using Number = std::remove_cvref_t<decltype(get(items.front()))>;
+    constexpr double kMost = std::numeric_limits<Number>::max();
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      double value = column[i];
+      if (std::is_integral_v<Number>) value = value > 0 ? std::min(std::round(value), kMost) : 0;
+      get(items[i]) = static_cast<Number>(value);
+    }
+  }
+}
+
 template <class Archive, class Points>
 void TransferPointFeatures(Archive& archive, Points& points) {
   constexpr std::size_t kLeastBytes = 53;
@@ -102,9 +127,9 @@ void TransferPointFeatures(Archive& archive, Points& points) {
       archive, points, [](auto& p) -> auto& { return p.px.y(); });
   TransferColumn(
       archive, points, [](auto& p) -> auto& { return p.sigma_px; });
-  TransferColumn(
+  TransferAsDoubles(
       archive, points, [](auto& p) -> auto& { return p.angle; });
-  TransferColumn(
+  TransferAsDoubles(
       archive, points, [](auto& p) -> auto& { return p.response; });
   TransferColumn(
       archive, points, [](auto& p) -> auto& { return p.octave; });

@@ -135,10 +135,10 @@ Features ExtractFeatures(const RectifiedCamera& camera,
   return features;
 }
 
-std::vector<std::optional<MeasuredSegment>> FindRightLines(const RectifiedCamera& camera,
-                                                           const FeatureInput& input,
-                                                           const FeatureOptions& options,
-                                                           const std::vector<LineFeature>& lines) {
+OptionalList<MeasuredSegment> FindRightLines(const RectifiedCamera& camera,
+                                             const FeatureInput& input,
+                                             const FeatureOptions& options,
+                                             const std::vector<LineFeature>& lines) {
   CheckInput(camera, input);
   if (lines.empty()) return {};
   Features found;

@@ -16,7 +16,6 @@
 #include "plumbline/image/pyramid.h"
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace plumbline {
@@ -65,10 +64,10 @@ Features ExtractFeatures(const RectifiedCamera& camera,
 // image or predicted from the depth image (see Features::line_right), rounded to single precision;
 // one entry for each line. Only new landmarks need them, and most frames make none. Costs as much
 // as the lines of the left image.
-std::vector<std::optional<MeasuredSegment>> FindRightLines(const RectifiedCamera& camera,
-                                                           const FeatureInput& input,
-                                                           const FeatureOptions& options,
-                                                           const std::vector<LineFeature>& lines);
+OptionalList<MeasuredSegment> FindRightLines(const RectifiedCamera& camera,
+                                             const FeatureInput& input,
+                                             const FeatureOptions& options,
+                                             const std::vector<LineFeature>& lines);
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, FeatureOptions& o) {

@@ -108,8 +108,8 @@ void Correct(const StereoCorrection& before,
              const StereoCorrection& correction,
              Features& features) {
   for (std::size_t i = 0; i < features.points.size(); ++i) {
-    auto& disparity = features.point_disparity[i];
-    if (!disparity) continue;
+    Disparity* const disparity = features.point_disparity.Find(i);
+    if (disparity == nullptr) continue;
     const auto right = [&](double px) {
       return Eigen::Vector2d(features.points[i].px - Eigen::Vector2d(px, 0));
     };
@@ -121,10 +121,9 @@ void Correct(const StereoCorrection& before,
     end.x() = Measured(end.x(), [&](double x) { return -before.At({x, end.y()}); });
     end.x() += correction.At(end);
   };
-  for (auto& right : features.line_right) {
-    if (!right) continue;
-    correct_end(right->segment.start);
-    correct_end(right->segment.end);
+  for (MeasuredSegment& right : features.line_right.values()) {
+    correct_end(right.segment.start);
+    correct_end(right.segment.end);
   }
 }
 

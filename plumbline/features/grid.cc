@@ -13,7 +13,7 @@ PointGrid::PointGrid(const std::vector<Eigen::Vector2d>& positions,
                      int width,
                      int height,
                      int cell_px)
-    : positions_(positions), cell_px_(cell_px) {
+    : cell_px_(cell_px) {
   PLUMBLINE_CHECK(width > 0 && height > 0 && cell_px > 0, "size of the grid");
   columns_ = (width + cell_px - 1) / cell_px;
   rows_ = (height + cell_px - 1) / cell_px;
@@ -22,12 +22,12 @@ PointGrid::PointGrid(const std::vector<Eigen::Vector2d>& positions,
     return static_cast<std::size_t>(CellY(p.y()) * columns_ + CellX(p.x()));
   };
   cell_begin_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
-  for (const Eigen::Vector2d& p : positions_) ++cell_begin_[cell_of(p) + 1];
+  for (const Eigen::Vector2d& p : positions) ++cell_begin_[cell_of(p) + 1];
   for (std::size_t i = 1; i < cell_begin_.size(); ++i) cell_begin_[i] += cell_begin_[i - 1];
   std::vector<int> next(cell_begin_.begin(), cell_begin_.end() - 1);
-  items_.resize(positions_.size());
-  for (std::size_t i = 0; i < positions_.size(); ++i) {
-    items_[static_cast<std::size_t>(next[cell_of(positions_[i])]++)] = static_cast<int>(i);
+  items_.resize(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    items_[static_cast<std::size_t>(next[cell_of(positions[i])]++)] = static_cast<int>(i);
   }
 }
 
@@ -46,34 +46,8 @@ int PointGrid::CellX(double x) const { return CellOf(x, cell_px_, columns_); }
 
 int PointGrid::CellY(double y) const { return CellOf(y, cell_px_, rows_); }
 
-std::vector<int> PointGrid::InWindow(const Eigen::Vector2d& center, double radius) const {
-  std::vector<int> result;
-  InWindow(center, {radius, radius}, &result);
-  return result;
-}
-
 PointGrid PointGrid::WithPositions(const std::vector<Eigen::Vector2d>& positions) const {
   return {positions, columns_ * cell_px_, rows_ * cell_px_, cell_px_};
-}
-
-void PointGrid::InWindow(const Eigen::Vector2d& center,
-                         const Eigen::Vector2d& radius,
-                         std::vector<int>* out) const {
-  out->clear();
-  if (positions_.empty()) return;
-  const int x0 = CellX(center.x() - radius.x());
-  const int x1 = CellX(center.x() + radius.x());
-  const int y0 = CellY(center.y() - radius.y());
-  const int y1 = CellY(center.y() + radius.y());
-  for (int y = y0; y <= y1; ++y) {
-    const auto begin = cell_begin_[static_cast<std::size_t>(y * columns_ + x0)];
-    const auto end = cell_begin_[static_cast<std::size_t>(y * columns_ + x1) + 1];
-    for (int k = begin; k < end; ++k) {
-      const int i = items_[static_cast<std::size_t>(k)];
-      const Eigen::Vector2d d = positions_[static_cast<std::size_t>(i)] - center;
-      if (std::abs(d.x()) <= radius.x() && std::abs(d.y()) <= radius.y()) out->push_back(i);
-    }
-  }
 }
 
 }  // namespace plumbline

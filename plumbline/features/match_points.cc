@@ -25,7 +25,7 @@ struct Best {
 bool SimilarShape(const PointFeature& a, const PointFeature& b, const PointMatchOptions& options) {
   if (std::abs(a.octave - b.octave) > options.max_octave_step) return false;
   if (options.max_angle_deg <= 0) return true;
-  const double difference = std::remainder(a.angle - b.angle, 2 * std::numbers::pi);
+  const double difference = std::remainder(double{a.angle} - double{b.angle}, 2 * std::numbers::pi);
   return std::abs(difference) <= options.max_angle_deg * std::numbers::pi / 180;
 }
 
@@ -114,7 +114,10 @@ class CandidateSearch {
       }
     };
     if (options.radius_px > 0) {
-      grid_.InWindow(query.px, Eigen::Vector2d::Constant(options.radius_px), &near_);
+      const auto place_of = [&](int i) -> const auto& {
+        return set_[static_cast<std::size_t>(i)].px;
+      };
+      grid_.InWindow(query.px, Eigen::Vector2d::Constant(options.radius_px), place_of, &near_);
       for (const int i : near_) {
         const PointFeature& other = set_[static_cast<std::size_t>(i)];
         if (!SimilarShape(query, other, options)) continue;

@@ -335,10 +335,11 @@ void ExtractLevel(const PyramidLevel& level,
         math::Hypot(math::Hypot(kCornerSigmaPx, noise_sigma) * scale, calibration_sigma_px);
     const int x = static_cast<int>(std::lround(px.x()));
     const int y = static_cast<int>(std::lround(px.y()));
-    point.angle = CentroidAngle(level.image, x, y);
-    pixels.push_back({x, y, point.angle});
-    point.response = static_cast<double>(c.response);
-    point.octave = octave;
+    const double angle = CentroidAngle(level.image, x, y);
+    pixels.push_back({x, y, angle});
+    point.angle = static_cast<float>(angle);
+    point.response = static_cast<std::uint16_t>(c.response);
+    point.octave = static_cast<std::int16_t>(octave);
     points.push_back(point);
   }
   const std::vector<Descriptor> descriptors = DescribeOrb(level.image, pixels);

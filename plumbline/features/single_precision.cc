@@ -21,23 +21,19 @@ void RoundToSinglePrecision(Features& features) {
   for (PointFeature& point : features.points) {
     Round(point.px);
     Round(point.sigma_px);
-    Round(point.angle);
-    Round(point.response);
   }
-  for (auto& disparity : features.point_disparity) {
-    if (!disparity) continue;
-    Round(disparity->px);
-    Round(disparity->sigma_px);
+  for (Disparity& disparity : features.point_disparity.values()) {
+    Round(disparity.px);
+    Round(disparity.sigma_px);
   }
   for (LineFeature& line : features.lines) {
     Round(line.segment);
     Round(line.sigma_px);
     Round(line.response);
   }
-  for (auto& right : features.line_right) {
-    if (!right) continue;
-    Round(right->segment);
-    Round(right->sigma_px);
+  for (MeasuredSegment& right : features.line_right.values()) {
+    Round(right.segment);
+    Round(right.sigma_px);
   }
 }
 

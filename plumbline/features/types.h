@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/optional_list.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/segment.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -42,15 +42,16 @@ inline int HammingDistance(const Descriptor& a, const Descriptor& b) {
 }
 
 // A corner in the rectified image. Its position is in pixels of the full-size image for every
-// octave.
+// octave. Keyframes keep a thousand of them each, thus the small types.
 struct PointFeature {
   Eigen::Vector2d px = Eigen::Vector2d::Zero();
-  double sigma_px = 1;  // standard deviation of each coordinate (grows with the octave)
-  double angle = 0;     // orientation, radians
-  double response = 0;
-  int octave = 0;
+  double sigma_px = 1;         // standard deviation of each coordinate (grows with the octave)
+  float angle = 0;             // orientation, radians
+  std::uint16_t response = 0;  // largest threshold at which it is a corner, grey levels
+  std::int16_t octave = 0;
   Descriptor descriptor{};
 };
+static_assert(sizeof(PointFeature) == 64);
 
 // A straight edge in the rectified image, directed so that the brighter side is on its left in the
 // displayed image: above an edge that runs to the right, to the right of one that runs down. A
@@ -77,12 +78,12 @@ struct FeatureMatch {
   int distance = 256;  // Hamming distance of the descriptors
 };
 
-// All measurements of one rectified frame. The vectors of one kind have equal length.
+// All measurements of one rectified frame. The lists of one kind have equal length.
 struct Features {
   std::vector<PointFeature> points;
-  std::vector<std::optional<Disparity>> point_disparity;
+  OptionalList<Disparity> point_disparity;
   std::vector<LineFeature> lines;
-  std::vector<std::optional<MeasuredSegment>> line_right;
+  OptionalList<MeasuredSegment> line_right;
 };
 
 }  // namespace plumbline

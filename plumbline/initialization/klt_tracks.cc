@@ -117,9 +117,11 @@ std::vector<int> NearestFeatures(const FrameFeatures& features,
     int feature = 0;
   };
   std::vector<Pair> pairs;
+  std::vector<int> near;
   for (std::size_t k = 0; k < places.size(); ++k) {
     if (!places[k]) continue;
-    for (const int f : features.point_grid.InWindow(*places[k], radius_px)) {
+    features.PointsInWindow(*places[k], Eigen::Vector2d::Constant(radius_px), &near);
+    for (const int f : near) {
       const Eigen::Vector2d& px = features.features.points[static_cast<std::size_t>(f)].px;
       const double squared = (px - *places[k]).squaredNorm();
       if (squared <= radius_px * radius_px) pairs.push_back({squared, static_cast<int>(k), f});

@@ -61,7 +61,7 @@ std::vector<PointFeature> Moved(std::vector<PointFeature> points, const ImageMot
 }
 
 double Turn(const Features& a, const Features& b, const FeatureMatch& match) {
-  return b.points[Index(match.b)].angle - a.points[Index(match.a)].angle;
+  return double{b.points[Index(match.b)].angle} - double{a.points[Index(match.a)].angle};
 }
 
 // Returns the turn of the camera about its axis: the centre of the window that holds the turns of

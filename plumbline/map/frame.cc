@@ -29,8 +29,7 @@ std::shared_ptr<const FrameFeatures> WithCorrection(
 }
 
 std::shared_ptr<const FrameFeatures> WithRightLines(
-    const std::shared_ptr<const FrameFeatures>& indexed,
-    std::vector<std::optional<MeasuredSegment>> measured) {
+    const std::shared_ptr<const FrameFeatures>& indexed, OptionalList<MeasuredSegment> measured) {
   if (measured.empty()) return indexed;
   auto whole = std::make_shared<FrameFeatures>(*indexed);
   Features lines;

@@ -11,7 +11,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace plumbline {
@@ -22,6 +21,17 @@ struct FrameFeatures {
   Features features;
   PointGrid point_grid;
   FeatureCorrection correction = {};  // correction applied to the features
+
+  // Writes the indices of the points with |dx| <= radius.x and |dy| <= radius.y into a vector that
+  // is reused (PointGrid::InWindow).
+  void PointsInWindow(const Eigen::Vector2d& center,
+                      const Eigen::Vector2d& radius,
+                      std::vector<int>* out) const {
+    const auto place_of = [&](int i) -> const auto& {
+      return features.points[static_cast<std::size_t>(i)].px;
+    };
+    point_grid.InWindow(center, radius, place_of, out);
+  }
 };
 
 // Returns the features with another correction; the same object if they already have it.
@@ -31,8 +41,7 @@ std::shared_ptr<const FrameFeatures> WithCorrection(
 // Returns the features with the measured positions of their lines in the right image
 // (FindRightLines).
 std::shared_ptr<const FrameFeatures> WithRightLines(
-    const std::shared_ptr<const FrameFeatures>& indexed,
-    std::vector<std::optional<MeasuredSegment>> measured);
+    const std::shared_ptr<const FrameFeatures>& indexed, OptionalList<MeasuredSegment> measured);
 
 // Returns measured features with a correction applied and indexed, for images of the camera's size.
 std::shared_ptr<const FrameFeatures> IndexFeatures(const RectifiedCamera& camera,

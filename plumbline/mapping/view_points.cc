@@ -73,11 +73,11 @@ std::optional<SearchWindow> EpipolarWindow(const RectifiedCamera& camera,
 // The point features of a frame that show no landmark, ordered by image cell.
 class FreePoints {
  public:
-  FreePoints(const RectifiedCamera& camera, const Frame& frame) {
+  FreePoints(const RectifiedCamera& camera, const Frame& frame) : points_(frame.features().points) {
     std::vector<Eigen::Vector2d> positions;
     for (std::size_t i = 0; i < frame.points.size(); ++i) {
       if (frame.points[i].valid()) continue;
-      positions.push_back(frame.features().points[i].px);
+      positions.push_back(points_[i].px);
       features_.push_back(i);
     }
     grid_ = PointGrid(positions, camera.width, camera.height);
@@ -85,13 +85,17 @@ class FreePoints {
 
   // Returns the indices of features in the frame, in the order of the cells.
   const std::vector<std::size_t>& InWindow(const SearchWindow& window) {
-    grid_.InWindow(window.centre, window.radius, &places_);
+    const auto place_of = [&](int i) -> const auto& {
+      return points_[features_[static_cast<std::size_t>(i)]].px;
+    };
+    grid_.InWindow(window.centre, window.radius, place_of, &places_);
     found_.clear();
     for (const int place : places_) found_.push_back(features_[static_cast<std::size_t>(place)]);
     return found_;
   }
 
  private:
+  const std::vector<PointFeature>& points_;
   std::vector<std::size_t> features_;  // feature of each place in the grid
   PointGrid grid_;
   std::vector<int> places_;

@@ -62,8 +62,8 @@ struct NearestTwo {
   }
 };
 
-bool DisparityAgrees(const std::optional<Disparity>& measured, double predicted, double slack_px) {
-  return !measured ||
+bool DisparityAgrees(const Disparity* measured, double predicted, double slack_px) {
+  return measured == nullptr ||
          std::abs(measured->px - predicted) <= slack_px + kDisparityGateSigmas * measured->sigma_px;
 }
 
@@ -126,13 +126,13 @@ std::optional<ProjectionMatch> PointProjectionMatcher::Match(const ProjectedPoin
                                                              const std::vector<bool>& taken) {
   const Features& features = image_.features;
   const double radius = options_.point_radius_px * landmark.scale;
-  image_.point_grid.InWindow(landmark.px, {radius, radius}, &near_);
+  image_.PointsInWindow(landmark.px, {radius, radius}, &near_);
   NearestTwo nearest;
   for (const int index : near_) {
     const auto i = static_cast<std::size_t>(index);
     const PointFeature& feature = features.points[i];
     if (taken[i] || std::abs(feature.octave - landmark.octave) > 1) continue;
-    if (!DisparityAgrees(features.point_disparity[i], landmark.disparity, radius)) continue;
+    if (!DisparityAgrees(features.point_disparity.Find(i), landmark.disparity, radius)) continue;
     nearest.Offer(index, HammingDistance(feature.descriptor, landmark.descriptor), feature.octave);
   }
   if (nearest.best < 0 || nearest.best_distance > options_.point_max_distance) return std::nullopt;

@@ -6,7 +6,6 @@
 #include "plumbline/geometry/measured_depth.h"
 #include "plumbline/slam/load_control.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace plumbline {
@@ -57,11 +56,7 @@ std::shared_ptr<const FrameFeatures> FrontEnd::WithRightLines(
     const RectifiedFrame& images,
     LoadLevel shed,
     const std::shared_ptr<const FrameFeatures>& indexed) const {
-  const auto& known = indexed->features.line_right;
-  if (std::any_of(
-          known.begin(), known.end(), [](const auto& right) { return right.has_value(); })) {
-    return indexed;
-  }
+  if (!indexed->features.line_right.values().empty()) return indexed;
   const FrameMasks masks = MasksOf(images);
   return plumbline::WithRightLines(indexed,
                                    FindRightLines(rectifier_.camera(),

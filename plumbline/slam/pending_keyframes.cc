@@ -84,7 +84,7 @@ void AddNew(KeyFrameId keyframe,
 template <class Feature, class LandmarkId, class Depth>
 int CountNew(const std::vector<Feature>& features,
              const std::vector<LandmarkId>& matches,
-             const std::vector<Depth>& depths,
+             const OptionalList<Depth>& depths,
              bool need_depth) {
   int count = 0;
   for (std::size_t i = 0; i < features.size(); ++i) {

@@ -312,10 +312,7 @@ void Tracker::ForgetLoss() {
 // points without depth do not count, since no map can start with them and noise has many.
 bool Tracker::IsBlind(const Features& features) const {
   const std::size_t seen = features.points.size() + features.lines.size();
-  const auto depths = std::count_if(features.point_disparity.begin(),
-                                    features.point_disparity.end(),
-                                    [](const auto& disparity) { return disparity.has_value(); }) +
-                      std::ssize(features.lines);
+  const auto depths = std::ssize(features.point_disparity.values()) + std::ssize(features.lines);
   const std::int64_t counted = monocular_ ? static_cast<std::int64_t>(seen) : depths;
   return counted < kFewestUnpredictedInliers;
 }
@@ -363,12 +360,7 @@ void Tracker::UpdateLastFrame(const MapSnapshot& snapshot) {
 TrackingResult Tracker::StartMap(Frame frame) {
   const Features& features = frame.features();
   const auto with_depth =
-      std::count_if(features.point_disparity.begin(),
-                    features.point_disparity.end(),
-                    [](const auto& disparity) { return disparity.has_value(); }) +
-      std::count_if(features.line_right.begin(), features.line_right.end(), [](const auto& right) {
-        return right.has_value();
-      });
+      std::ssize(features.point_disparity.values()) + std::ssize(features.line_right.values());
   if (with_depth < options_.min_initial) {
     return FinishLost(std::move(frame), TrackingFailure::kTooFewFeatures, {});
   }

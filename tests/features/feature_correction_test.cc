@@ -153,12 +153,12 @@ Features MeasuredAnywhere(const RectifiedCamera& camera, Rng& rng) {
     PointFeature point;
     point.px = {rng.Uniform(0, camera.width), rng.Uniform(0, camera.height)};
     f.points.push_back(point);
-    f.point_disparity.emplace_back(Disparity{rng.Uniform(0.05, 120), 0.3});
+    f.point_disparity.push_back(Disparity{rng.Uniform(0.05, 120), 0.3});
     const Eigen::Vector2d start(rng.Uniform(0, camera.width), rng.Uniform(0, camera.height));
     f.lines.emplace_back();
     f.lines.back().segment = {start + RandomVector<2>(rng, 30), start};
     f.lines.back().sigma_px = f.points.back().sigma_px = rng.Uniform(0.3, 4);
-    f.line_right.emplace_back(MeasuredSegment{{start, start + RandomVector<2>(rng, 60)}, 0.5});
+    f.line_right.push_back(MeasuredSegment{{start, start + RandomVector<2>(rng, 60)}, 0.5});
   }
   RoundToSinglePrecision(f);
   return f;

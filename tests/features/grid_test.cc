@@ -13,6 +13,16 @@
 namespace plumbline {
 namespace {
 
+std::vector<int> InWindow(const PointGrid& grid,
+                          const std::vector<Eigen::Vector2d>& positions,
+                          const Eigen::Vector2d& center,
+                          const Eigen::Vector2d& radius) {
+  std::vector<int> found;
+  const auto position_of = [&](int i) { return positions[static_cast<std::size_t>(i)]; };
+  grid.InWindow(center, radius, position_of, &found);
+  return found;
+}
+
 TEST(PointGrid, FindsExactlyWhatACompleteSearchFinds) {
   Rng rng(1, "grid");
   std::vector<Eigen::Vector2d> positions;
@@ -31,23 +41,23 @@ TEST(PointGrid, FindsExactlyWhatACompleteSearchFinds) {
       const Eigen::Vector2d d = positions[static_cast<std::size_t>(i)] - center;
       if (std::abs(d.x()) <= radius.x() && std::abs(d.y()) <= radius.y()) expected.push_back(i);
     }
-    std::vector<int> found;
-    grid.InWindow(center, radius, &found);
-    EXPECT_THAT(found, testing::UnorderedElementsAreArray(expected));
+    EXPECT_THAT(InWindow(grid, positions, center, radius),
+                testing::UnorderedElementsAreArray(expected));
   }
 }
 
 TEST(PointGrid, TakesPlacesThatAreNoNumbers) {
   const double none = std::nan("");
   const double infinite = std::numeric_limits<double>::infinity();
-  const PointGrid grid({{none, -none}, {infinite, -infinite}, {5, 5}}, 320, 240, 25);
-  EXPECT_THAT(grid.InWindow({5, 5}, 1), testing::ElementsAre(2));
-  EXPECT_THAT(grid.InWindow({none, none}, 1), testing::IsEmpty());
+  const std::vector<Eigen::Vector2d> positions{{none, -none}, {infinite, -infinite}, {5, 5}};
+  const PointGrid grid(positions, 320, 240, 25);
+  EXPECT_THAT(InWindow(grid, positions, {5, 5}, {1, 1}), testing::ElementsAre(2));
+  EXPECT_THAT(InWindow(grid, positions, {none, none}, {1, 1}), testing::IsEmpty());
 }
 
 TEST(PointGrid, OfNothingFindsNothing) {
-  EXPECT_TRUE(PointGrid().InWindow({1, 2}, 100).empty());
-  EXPECT_TRUE(PointGrid({}, 10, 10).InWindow({1, 2}, 100).empty());
+  EXPECT_TRUE(InWindow(PointGrid(), {}, {1, 2}, {100, 100}).empty());
+  EXPECT_TRUE(InWindow(PointGrid({}, 10, 10), {}, {1, 2}, {100, 100}).empty());
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ TEST(MatchPoints, RefusesDistantAmbiguousAndFarAwayCandidates) {
   options.max_octave_step = 2;
   EXPECT_TRUE(MatchPoints(a, b, options).empty());
   b[0].octave = 0;
-  b[0].angle = 6.2;  // -5 degrees
+  b[0].angle = 6.2F;  // -5 degrees
   options.max_angle_deg = 4;
   EXPECT_TRUE(MatchPoints(a, b, options).empty());
   options.max_angle_deg = 6;

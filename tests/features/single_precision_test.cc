@@ -15,7 +15,7 @@ TEST(SinglePrecision, RoundsAllThatWasMeasured) {
   Features f;
   PointFeature point;
   point.px = place;
-  point.sigma_px = point.angle = point.response = third;
+  point.sigma_px = third;
   f.points = {point, point};
   f.point_disparity = {Disparity{20 + third, third}, std::nullopt};
   LineFeature line;
@@ -31,8 +31,6 @@ TEST(SinglePrecision, RoundsAllThatWasMeasured) {
   EXPECT_LT((at - place).norm(), 1e-4);
   EXPECT_EQ(f.points[1].px, at);
   EXPECT_EQ(f.points[1].sigma_px, rounded);
-  EXPECT_EQ(f.points[1].angle, rounded);
-  EXPECT_EQ(f.points[1].response, rounded);
   EXPECT_EQ(f.point_disparity[0]->px, static_cast<double>(static_cast<float>(20 + third)));
   EXPECT_EQ(f.point_disparity[0]->sigma_px, rounded);
   EXPECT_FALSE(f.point_disparity[1]);

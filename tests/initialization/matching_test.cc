@@ -83,7 +83,7 @@ TEST_F(ReferenceMatching, OrientationThatDoesNotGoWithTheRollIsRejected) {
   const SyntheticFrame b = SenseAt(PoseOnPath(3));
   Features turned = b.indexed->features;
   for (std::size_t i = 0; i < turned.points.size(); ++i) {
-    turned.points[i].angle = i % 5 == 0 ? 1.5 : 0.4;  // the camera rolled by 0.4
+    turned.points[i].angle = i % 5 == 0 ? 1.5F : 0.4F;  // the camera rolled by 0.4
   }
   const auto matches = MatchToReference(a.indexed->features, turned);
   EXPECT_GT(matches.points.size(), 100U);

@@ -46,7 +46,7 @@ std::optional<Eigen::Vector2d> Align(const Scene& reference,
                                      const PatchAlignmentOptions& options = {}) {
   PointFeature feature;
   feature.px = from;
-  feature.octave = octave;
+  feature.octave = static_cast<std::int16_t>(octave);
   Eigen::Matrix2d warp = Eigen::Matrix2d::Identity();
   return AlignPatches(Picture(reference),
                       {{feature}},

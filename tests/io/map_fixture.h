@@ -21,9 +21,9 @@ inline Features ThreePointsAndTwoLines(std::int64_t id) {
   for (int i = 0; i < 3; ++i) {
     PointFeature point;
     point.px = {3.25 + i, 20.5 * static_cast<double>(id)};
-    point.angle = -0.125 * i;
+    point.angle = -0.125F * static_cast<float>(i);
     point.response = 7;
-    point.octave = i;
+    point.octave = static_cast<std::int16_t>(i);
     point.descriptor = {1U,
                         static_cast<std::uint64_t>(id),
                         std::numeric_limits<std::uint64_t>::max(),

@@ -74,8 +74,9 @@ void ExpectSame(const KeyFrame& a, const KeyFrame& b) {
   EXPECT_EQ(a.frame.lines, b.frame.lines);
   EXPECT_EQ(a.frame.indexed->correction, b.frame.indexed->correction);
   ExpectSame(a.frame.features(), b.frame.features());
-  EXPECT_EQ(a.frame.indexed->point_grid.InWindow(a.frame.features().points[0].px, 0.5),
-            std::vector<int>{0});
+  std::vector<int> found;
+  a.frame.indexed->PointsInWindow(a.frame.features().points[0].px, {0.5, 0.5}, &found);
+  EXPECT_EQ(found, std::vector<int>{0});
 }
 
 template <class Landmark>

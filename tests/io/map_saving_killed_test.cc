@@ -36,7 +36,7 @@ Map LargeMap(std::int64_t keyframes) {
       point.px = {rng.Uniform(0, 752), rng.Uniform(0, 480)};
       for (std::uint64_t& word : point.descriptor) word = rng.Next();
       features.points.push_back(point);
-      features.point_disparity.emplace_back();
+      features.point_disparity.push_back({});
     }
     keyframe.frame.points.resize(features.points.size());
     keyframe.frame.indexed = IndexFeatures(kMapCamera, std::move(features));

@@ -19,7 +19,7 @@ Features Place(std::uint64_t number, std::size_t points = 300, std::size_t lines
   features.points.resize(points);
   features.lines.resize(lines);
   for (PointFeature& point : features.points) {
-    point.response = rng.Uniform();
+    point.response = static_cast<std::uint16_t>(rng.Uniform(0, 65535));
     for (std::uint64_t& word : point.descriptor) word = rng.Next();
   }
   for (LineFeature& line : features.lines) {

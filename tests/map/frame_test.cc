@@ -24,6 +24,12 @@ TEST(WithCorrection, CorrectsACopyAndRemembersTheCorrection) {
   EXPECT_DOUBLE_EQ(WithCorrection(corrected, {})->features.point_disparity[0]->px, 10);
 }
 
+std::vector<int> PointsNear(const FrameFeatures& indexed, const Eigen::Vector2d& px) {
+  std::vector<int> found;
+  indexed.PointsInWindow(px, {1, 1}, &found);
+  return found;
+}
+
 TEST(WithCorrection, IndexesPointsWhereTheLensCorrectionPutsThem) {
   const RectifiedCamera camera = TestCamera();
   Features measured;
@@ -34,8 +40,8 @@ TEST(WithCorrection, IndexesPointsWhereTheLensCorrectionPutsThem) {
   const auto raw = IndexFeatures(camera, measured);
   const Eigen::Vector2d corrected = lens.lens.At(measured.points[0].px);
   for (const auto& indexed : {WithCorrection(raw, lens), IndexFeatures(camera, measured, lens)}) {
-    EXPECT_EQ(indexed->point_grid.InWindow(corrected, 1), std::vector<int>{0});
-    EXPECT_TRUE(indexed->point_grid.InWindow(measured.points[0].px, 1).empty());
+    EXPECT_EQ(PointsNear(*indexed, corrected), std::vector<int>{0});
+    EXPECT_TRUE(PointsNear(*indexed, measured.points[0].px).empty());
     EXPECT_EQ(MeasuredFeatures(*indexed).points[0].px, measured.points[0].px);
   }
 }
@@ -78,7 +84,7 @@ TEST(IndexFeatures, CorrectsWhatWasMeasuredAndFindsItAgain) {
   const FeatureCorrection correction{{TestCamera(), k}};
   const auto indexed = IndexFeatures(TestCamera(), measured, correction);
   EXPECT_EQ(indexed->correction, correction);
-  EXPECT_EQ(indexed->point_grid.InWindow({700, 400}, 1), std::vector<int>{1});
+  EXPECT_EQ(PointsNear(*indexed, {700, 400}), std::vector<int>{1});
   EXPECT_NE(indexed->features.point_disparity[0]->px, 20.125);
   EXPECT_EQ(MeasuredFeatures(*indexed).point_disparity[0]->px, 20.125);
   EXPECT_EQ(indexed->features.point_disparity[0]->px,

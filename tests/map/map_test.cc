@@ -157,7 +157,7 @@ TEST(Map, CorrectsTheDisparitiesOfAllKeyFramesOnceForAll) {
   Map map = ChainOfKeyFrames(1);
   KeyFrame keyframe = BlankKeyFrame(1, 0);
   auto features = std::make_shared<FrameFeatures>(*keyframe.frame.indexed);
-  features->features.point_disparity[0] = Disparity{10, 1};
+  features->features.point_disparity.Set(0, Disparity{10, 1});
   keyframe.frame.indexed = features;
   const RectifiedCamera camera{400, 400, 320, 240, 0.1, 640, 480};
   const auto disparity = [&](std::int64_t id) {

@@ -133,7 +133,7 @@ KeyFrame Looking(std::int64_t id, int bits, int octave) {
     descriptor[static_cast<std::size_t>(b / 64)] |= std::uint64_t{1} << (b % 64);
   }
   indexed.features.points[0].descriptor = descriptor;
-  indexed.features.points[0].octave = octave;
+  indexed.features.points[0].octave = static_cast<std::int16_t>(octave);
   indexed.features.lines[0].descriptor = descriptor;
   keyframe.frame.indexed = std::make_shared<const FrameFeatures>(std::move(indexed));
   return keyframe;

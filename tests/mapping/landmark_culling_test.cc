@@ -82,7 +82,7 @@ Map Overlapping(int shared, int octave_of_others = 0) {
     KeyFrame keyframe = BlankKeyFrame(k, k - 1);
     FrameFeatures indexed = *keyframe.frame.indexed;
     for (PointFeature& point : indexed.features.points)
-      point.octave = k == 2 ? 0 : octave_of_others;
+      point.octave = static_cast<std::int16_t>(k == 2 ? 0 : octave_of_others);
     keyframe.frame.indexed = std::make_shared<const FrameFeatures>(std::move(indexed));
     map.Apply({edit::AddKeyFrame{keyframe}});
   }

@@ -68,7 +68,7 @@ struct WallMap {
     for (const Eigen::Vector2d& place : kPlaces) {
       PointFeature corner;
       corner.px = PixelOf(place, forward) + error;
-      corner.octave = octave;
+      corner.octave = static_cast<std::int16_t>(octave);
       features.points.push_back(corner);
     }
     features.point_disparity.resize(kPlaces.size());

@@ -51,7 +51,7 @@ TEST(Measurements, CarryTheFeaturesNoise) {
                   .covariance.isApprox(0.09 * Eigen::Matrix2d::Identity()));
   EXPECT_TRUE(MeasureRightLine(features, 0, constant)
                   ->covariance.isApprox(0.09 * Eigen::Matrix2d::Identity()));
-  features.line_right[0].reset();
+  features.line_right.Set(0, std::nullopt);
   EXPECT_FALSE(MeasureRightLine(features, 0, LineWeighting::kNone));
 }
 

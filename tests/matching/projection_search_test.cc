@@ -213,7 +213,7 @@ bool LineMatches(const Segment2& predicted, const Segment2& feature, int distanc
     line.descriptor[static_cast<std::size_t>(b / 64)] |= std::uint64_t{1} << (b % 64);
   }
   features.lines.push_back(line);
-  features.line_right.emplace_back();
+  features.line_right.push_back({});
   return !MatchProjectedLines(*IndexFeatures(TestCamera(), features),
                               {ProjectedLine{predicted, {}}},
                               {false},
@@ -238,9 +238,9 @@ TEST(MatchProjectedLines, NeedsPlaceDirectionOverlapAndLooks) {
 TEST(MatchProjectedLines, IsOneToOne) {
   Features features;
   features.lines.push_back({.segment = {{100, 100}, {200, 100}}});
-  features.line_right.emplace_back();
+  features.line_right.push_back({});
   features.lines.push_back({.segment = {{100, 300}, {200, 300}}});
-  features.line_right.emplace_back();
+  features.line_right.push_back({});
   const ProjectedLine near_first{{{100, 102}, {200, 102}}, {1}};
   const ProjectedLine exact{{{100, 100}, {200, 100}}, {}};
   const ProjectedLine second{{{100, 300}, {200, 300}}, {}};

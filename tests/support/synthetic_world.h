@@ -104,7 +104,7 @@ inline void AddPoint(const SyntheticWorld& world,
   const Eigen::Vector3d p = cam_from_world * world.points[index].position;
   PointFeature feature;
   const double exact_octave = std::log(8 / p.norm()) / std::log(1.2);
-  feature.octave = std::clamp(static_cast<int>(std::lround(exact_octave)), 0, 7);
+  feature.octave = static_cast<std::int16_t>(std::clamp(std::lround(exact_octave), 0L, 7L));
   feature.sigma_px = 0.7 * std::pow(1.2, feature.octave);
   feature.px = world.camera.Project(p) + RandomVector<2>(rng, sensor.noise * feature.sigma_px);
   feature.descriptor = Flipped(world.points[index].descriptor, sensor.flipped_bits, rng);

@@ -116,10 +116,11 @@ TEST(PoseSearch, FewKnownDepthsBringInUncertainOnes) {
   Scene scene;
   Features features = scene.last.frame.features();
   for (std::size_t i = 0; i < features.points.size(); ++i) {
-    auto& disparity = features.point_disparity[i];
-    if (disparity && i % kKnown != 0) disparity->sigma_px = 0.1 * disparity->px;
+    Disparity* const disparity = features.point_disparity.Find(i);
+    if (disparity != nullptr && i % kKnown != 0) disparity->sigma_px = 0.1 * disparity->px;
   }
-  for (auto& line : features.line_right) line.reset();
+  features.line_right.clear();
+  features.line_right.resize(features.lines.size());
   scene.last.frame.indexed = IndexFeatures(scene.world.camera, features);
   scene.options.enough_pose_sigma = 0.02;
   const Frame frame = FrameAt(scene.world, 2);

@@ -33,7 +33,7 @@ struct TwoPieces {
     feature.sigma_px = 0.4;
     feature.segment = *ProjectSegment(camera, {pose * piece.start, pose * piece.end});
     features.lines.push_back(feature);
-    features.line_right.emplace_back();
+    features.line_right.push_back({});
     SyntheticFrame sensed;
     sensed.indexed = IndexFeatures(camera, std::move(features));
     sensed.line_truth.push_back(0);
