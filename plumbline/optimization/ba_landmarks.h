@@ -49,7 +49,7 @@ class BaLandmarks {
 
   BaLandmarks(const RectifiedCamera& camera,
               std::vector<State> states,
-              const std::vector<BaObservation<Term>>& observations,
+              std::vector<BaObservation<Term>> observations,
               const std::vector<BaPose>& poses,
               BaParallelLines parallel = {});
 
@@ -151,7 +151,7 @@ class BaLandmarks {
 template <class Kind>
 BaLandmarks<Kind>::BaLandmarks(const RectifiedCamera& camera,
                                std::vector<State> states,
-                               const std::vector<BaObservation<Term>>& observations,
+                               std::vector<BaObservation<Term>> observations,
                                const std::vector<BaPose>& poses,
                                BaParallelLines parallel)
     : camera_(camera), states_(std::move(states)), trial_(states_), parallel_(std::move(parallel)) {
@@ -176,10 +176,11 @@ BaLandmarks<Kind>::BaLandmarks(const RectifiedCamera& camera,
     }
   }
   coupling_begin_[n] = coupled.size();
+  observations = {};  // freed before the rest is allocated
   couplings_.resize(coupled.size());
   for (std::size_t k = 0; k < coupled.size(); ++k) couplings_[k].pose = coupled[k];
-  used_.assign(observations.size(), 1);
-  chi2_.assign(observations.size(), 0);
+  used_.assign(observations_.size(), 1);
+  chi2_.assign(observations_.size(), 0);
   eliminated_.resize(n);
   cost_.assign(n, 0);
   trial_cost_.assign(n, 0);

@@ -60,7 +60,7 @@ class BundleAdjuster {
 
   BundleAdjuster(const BaProblem& problem,
                  Lines lines,
-                 const LineObservations& line_observations,
+                 LineObservations line_observations,
                  const LocalBaOptions& options,
                  const StopCheck& stop)
       : options_(options),
@@ -68,8 +68,11 @@ class BundleAdjuster {
         poses_(MakePoses(problem)),
         trial_poses_(poses_),
         points_(problem.camera, problem.points, PointObservations(problem), poses_),
-        lines_(
-            problem.camera, std::move(lines), line_observations, poses_, BaParallelLines(problem)),
+        lines_(problem.camera,
+               std::move(lines),
+               std::move(line_observations),
+               poses_,
+               BaParallelLines(problem)),
         solver_(static_cast<int>(std::count_if(
             poses_.begin(), poses_.end(), [](const BaPose& p) { return p.free_index >= 0; }))) {}
 

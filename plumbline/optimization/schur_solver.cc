@@ -9,6 +9,7 @@ namespace plumbline {
 
 SymmetricBlocks::SymmetricBlocks(int rows, bool whole)
     : whole_(whole), rows_(static_cast<std::size_t>(rows)) {
+  if (whole) blocks_.reserve(rows_.size() * (rows_.size() + 1) / 2);
   for (int row = 0; row < rows; ++row) {
     Row& r = rows_[static_cast<std::size_t>(row)];
     r.first = whole ? 0 : row;
