@@ -71,6 +71,32 @@ void RefreshChanged(const std::vector<ShownLandmark<LandmarkId>>& before,
   }
 }
 
+// Applies AdjustWholeMap. Features are corrected to a new lens as soon as it is known: those with
+// the earlier one would take as much memory again beside the adjustment.
+void AdjustInPlace(const CameraAndPyramid& imaging,
+                   const LineSettings& lines,
+                   const MappingOptions& options,
+                   const StopCheck& stop,
+                   AdjustmentProgress& progress,
+                   Map& map) {
+  const FeatureCorrection before = map.correction();
+  progress.on_lens = [&](const LensCorrection& lens) {
+    map.Apply({edit::CorrectFeatures{{before.stereo, lens}}});
+  };
+  const auto take_back = [&] {
+    if (!(map.correction() == before)) map.Apply({edit::CorrectFeatures{before}});
+  };
+  MapCorrection found;
+  try {
+    found = AdjustWholeMap(map, imaging, lines, options, stop, &progress);
+  } catch (...) {
+    take_back();
+    throw;
+  }
+  if (found.empty()) take_back();
+  map.Apply(RebaseCorrection(found, map));
+}
+
 }  // namespace
 
 LocalMapper::LocalMapper(const CameraAndPyramid& imaging,
@@ -162,17 +188,18 @@ std::vector<MappingStep> LocalMapper::AdjustLoopNeighbourhood(Map& map,
 
 std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) const {
   constexpr int kRounds = 2;  // in the second round, better poses find more segments of each line
-  std::vector<MappingStep> times;
   if (stereo_change_.Running(map)) {
     map.Apply({edit::CorrectFeatures{{stereo_change_.correction(), map.correction().lens}}});
   }
   MappingOptions options = options_;
+  AdjustmentProgress progress;
   for (int round = 0; round < kRounds; ++round) {
-    map.Apply(RebaseCorrection(AdjustWholeMap(map, imaging_, lines_, options, stop, &times), map));
+    AdjustInPlace(imaging_, lines_, options, stop, progress, map);
     options.lens_calibration = false;  // the first round has learned the lens
   }
+  std::vector<MappingStep>& times = progress.times;
   Timed("finish_outliers", times, [&] { map.Apply(RemoveOutliers(map, imaging_, lines_)); });
-  return times;
+  return std::move(times);
 }
 
 // Puts a keyframe into the map and updates scores and appearance of the landmarks that it shows.

@@ -36,9 +36,13 @@ MapProblem MakeWholeMap(const Map& map,
   MapProblem whole;
   const KeyFrameId first = map.keyframes().begin()->first;
   MapProblemBuilder builder(map, imaging, weights, first, whole);
-  std::size_t observations = 0;
-  for (const auto& [id, point] : map.points()) observations += point.observations.size();
-  whole.problem.point_observations.reserve(observations);
+  std::size_t of_points = 0, of_lines = 0;
+  for (const auto& [id, point] : map.points()) of_points += point.observations.size();
+  for (const WellSeenLine& line : lines) {
+    for (const LineSupport& support : line.supports) of_lines += support.right ? 2 : 1;
+  }
+  whole.problem.point_observations.reserve(of_points);
+  whole.problem.line_observations.reserve(of_lines);
   for (const auto& [id, keyframe] : map.keyframes()) builder.AddPose(id, id == first);
   for (const auto& [id, point] : map.points()) {
     if (IsToStop(stop)) return whole;
@@ -217,7 +221,7 @@ MapCorrection AdjustWholeMap(const Map& map,
                              const LineSettings& lines,
                              const MappingOptions& options,
                              const StopCheck& stop,
-                             std::vector<MappingStep>* times) {
+                             AdjustmentProgress* progress) {
   constexpr std::size_t kMinKeyFrames = 3;
   const int limit = options.final_adjustment_keyframes;
   const std::size_t count = map.keyframes().size();
@@ -230,8 +234,8 @@ MapCorrection AdjustWholeMap(const Map& map,
   if (large && TakesTooLong(without_lines(map), limit, stop)) return {};
   MapCorrection to_lens;
   std::optional<Map> moved;
-  std::vector<MappingStep> not_wanted;
-  std::vector<MappingStep>& steps = times != nullptr ? *times : not_wanted;
+  AdjustmentProgress not_wanted;
+  auto& [steps, on_lens] = progress != nullptr ? *progress : not_wanted;
   if (imaging.camera.baseline == 0) {
     std::optional<MapCorrection> adjusted;
     Timed("finish_lens", steps, [&] {
@@ -239,6 +243,7 @@ MapCorrection AdjustWholeMap(const Map& map,
     });
     if (!adjusted || IsToStop(stop)) return {};
     to_lens = *std::move(adjusted);
+    if (to_lens.lens && on_lens) on_lens(*to_lens.lens);
     if (!to_lens.empty()) moved.emplace(map).Apply(RebaseCorrection(to_lens, map));
   }
   const Map& at_lens = moved ? *moved : map;

@@ -10,9 +10,19 @@
 #include "plumbline/matching/line_method.h"
 #include "plumbline/matching/projection_search.h"
 
+#include <functional>
 #include <vector>
 
 namespace plumbline {
+
+// What AdjustWholeMap tells its caller on the way.
+struct AdjustmentProgress {
+  std::vector<MappingStep> times = {};  // times of its steps, named as those of LocalMapper::Finish
+  // Called with a new lens when keyframes and points are adjusted to it. The caller may then
+  // correct the features of the map itself, so that the copy with the lens shares them; if the
+  // adjustment ends without a correction, it has to take that back.
+  std::function<void(const LensCorrection&)> on_lens = {};
+};
 
 // Adjusts all keyframes and points of a map, when it is finished (LocalMapper::Finish) or beside
 // mapping after a loop or a join (BackgroundAdjustment), together with lines that four keyframes or
@@ -37,15 +47,14 @@ namespace plumbline {
 // Returns an empty correction for a map of less than three keyframes, and for one whose equations
 // take longer to solve than those of mapping.final_adjustment_keyframes keyframes that all share
 // landmarks (FullSize); if only the lines make it so large, it is adjusted without them. The
-// correction is also empty when stopped. `times` gets the times of its steps, named as those of
-// LocalMapper::Finish. Cost: FindWellSeenLines, and bundle adjustment of the whole map, with the
-// time of SchurSolver::Solve.
+// correction is also empty when stopped. Cost: FindWellSeenLines, and bundle adjustment of the
+// whole map, with the time of SchurSolver::Solve.
 MapCorrection AdjustWholeMap(const Map& map,
                              const CameraAndPyramid& imaging,
                              const LineSettings& lines,
                              const MappingOptions& options,
                              const StopCheck& stop = {},
-                             std::vector<MappingStep>* times = nullptr);
+                             AdjustmentProgress* progress = nullptr);
 
 // Estimates the lens of a single camera from the points of a growing map
 // (CalibrateRadialDistortion), and adjusts keyframes and points to it. The newest keyframe that

@@ -4,6 +4,7 @@
 
 #include "plumbline/mapping/landmark_culling.h"
 #include "plumbline/mapping/line_map.h"
+#include "plumbline/mapping/local_mapper.h"
 
 #include "tests/mapping/vertical_lines.h"
 #include "tests/support/true_map.h"
@@ -81,6 +82,54 @@ TEST(AdjustWholeMap, LearnsWhatIsLeftOfTheLens) {
   EXPECT_EQ(scene.map.correction().lens, *learned.lens);
   EXPECT_FALSE(AdjustWholeMap(scene.map, world.Imaging(), {}, {}).lens);
   EXPECT_LT(WorstPose(scene.map, TruePoses()), 0.02);
+}
+
+TEST(AdjustWholeMap, LetsItsCallerShareTheFeaturesOfANewLens) {
+  SyntheticWorld world = MakeSyntheticWorld(600, 0);
+  TrueMap scene = MapThroughALens(world, 12);
+  const MapCorrection alone = AdjustWholeMap(scene.map, world.Imaging(), {}, {});
+  ASSERT_TRUE(alone.lens);
+  int told = 0;
+  AdjustmentProgress progress;
+  progress.on_lens = [&](const LensCorrection& lens) {
+    ++told;
+    EXPECT_EQ(lens, *alone.lens);
+    scene.map.Apply({edit::CorrectFeatures{{{}, lens}}});
+  };
+  const MapCorrection shared = AdjustWholeMap(scene.map, world.Imaging(), {}, {}, {}, &progress);
+  EXPECT_EQ(told, 1);
+  EXPECT_EQ(shared.lens, alone.lens);
+  ASSERT_EQ(shared.keyframes.size(), alone.keyframes.size());
+  for (const auto& [id, place] : shared.keyframes) {
+    EXPECT_EQ(place.after.translation, alone.keyframes.at(id).after.translation);
+  }
+  ASSERT_EQ(shared.points.size(), alone.points.size());
+  for (const auto& [id, place] : shared.points) {
+    EXPECT_EQ(place.after, alone.points.at(id).after);
+  }
+}
+
+TEST(AdjustWholeMap, StoppedAtANewLensLeavesTheFeaturesOfAFinishedMap) {
+  SyntheticWorld world = MakeSyntheticWorld(600, 0);
+  TrueMap scene = MapThroughALens(world, 12);
+  const Map before = scene.map;
+  bool learned = false;
+  const LocalMapper mapper(world.Imaging(), {}, {});
+  mapper.Finish(scene.map, [&] {
+    learned = learned || !(scene.map.correction() == before.correction());
+    return learned;
+  });
+  EXPECT_TRUE(learned);
+  EXPECT_EQ(scene.map.correction(), before.correction());
+  for (const auto& [id, keyframe] : scene.map.keyframes()) {
+    const Frame& earlier = before.Find(id)->frame;
+    EXPECT_EQ(keyframe.frame.cam_from_world.translation, earlier.cam_from_world.translation);
+    for (std::size_t i = 0; i < earlier.points.size(); ++i) {
+      const PointFeature& point = keyframe.frame.features().points[i];
+      EXPECT_EQ(point.px, earlier.features().points[i].px);
+      EXPECT_EQ(point.sigma_px, earlier.features().points[i].sigma_px);
+    }
+  }
 }
 
 // The map was adjusted with a wrong lens, so that its lines are bent as its keyframes are.
