@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -53,6 +54,19 @@ class SlurmExperiment : public testing::Test {
       batches += entry.path().extension() == ".json";
     }
     return batches;
+  }
+  // Address space in MB with which the program starts and says what is wrong with a sequence. Its
+  // threads and images take more.
+  int MemoryToRead(const std::string& broken) const {
+    constexpr int kStep = 10, kMost = 1000;
+    for (int mb = kStep; mb < kMost; mb += kStep) {
+      const Outcome outcome = RunProgram(
+          folder_,
+          "run " + Quoted(folder_ / "data/euroc" / broken) + " --out " + Quoted(folder_ / "tried"),
+          fmt::format("ulimit -v {}; ", mb * 1024));
+      if (outcome.err.find("expected") != std::string::npos) return mb + kStep;
+    }
+    return 0;
   }
   // Node of a run that is under way.
   std::string NodeOfARun() const {
@@ -130,6 +144,8 @@ TEST_F(SlurmExperiment, ANodeThatDiesCostsATryAndTheRestGoesOn) {
                                     "slam.mode=live",
                                     "--quiet"};
   const pid_t collector = StartProgram(words);
+  // A run that has begun: Slurm tells of it as running before.
+  ASSERT_TRUE(WaitForFile(folder_ / "out/runs/euroc/poster/points/1/log.txt")) << cluster_->Log();
   const std::string node = NodeOfARun();
   ASSERT_NE(node, "") << cluster_->Log();
   cluster_->KillNode(node == "n1" ? 1 : 2);
@@ -148,15 +164,23 @@ TEST_F(SlurmExperiment, TooLittleMemoryAndABrokenSequenceAreReasonsInTheTable) {
            folder_ / "data/euroc/poster_broken",
            fs::copy_options::recursive);
   folder_.Write("data/euroc/poster_broken/mav0/cam0/data.csv", "now,1.png\n");
-  for (const std::string& command : {Arguments("--runs 1 --quiet --memory 40", "here"),
-                                     OnSlurm("--runs 1 --quiet --memory 40")}) {
+  const int memory = MemoryToRead("poster_broken");
+  const std::string more = fmt::format("--runs 1 --quiet --memory {}", memory);
+  for (const std::string& command : {Arguments(more, "here"), OnSlurm(more)}) {
     const Outcome outcome = RunProgram(folder_, command);
-    ASSERT_EQ(outcome.code, 0) << outcome.err << cluster_->Log();
+    ASSERT_EQ(outcome.code, 1) << outcome.err << cluster_->Log();
+    EXPECT_THAT(outcome.err, HasSubstr("plumbline: no run succeeded; "));
   }
   EXPECT_EQ(Contents(folder_ / "here/results.json"), Contents(folder_ / "out/results.json"));
-  const std::string table = Contents(folder_ / "out/table.md");
-  EXPECT_THAT(table, HasSubstr("failed: euroc/poster, points, 1 run: "));
-  EXPECT_THAT(table, HasSubstr("failed: euroc/poster_broken, points, 1 run: "));
+  for (const char* out : {"here", "out"}) {
+    const std::string table = Contents(folder_ / out / "table.md");
+    EXPECT_THAT(table,
+                HasSubstr(fmt::format(
+                    "failed: euroc/poster, points, 1 run: out of memory (limit {} MB)", memory)));
+    EXPECT_THAT(table,
+                HasSubstr("failed: euroc/poster_broken, points, 1 run: euroc/poster_broken/mav0/"
+                          "cam0/data.csv:1: expected a time stamp in whole nanoseconds"));
+  }
 }
 
 }  // namespace

@@ -78,20 +78,22 @@ class SlurmCluster {
     return Contents(out);
   }
 
-  // Kills a node like a machine failure: its daemon and all processes under it at once.
+  // Kills a node like a machine failure: its daemon, and all processes of its jobs. Jobs that have
+  // started by then (their script runs) do not go on.
   void KillNode(int node) {
-    const pid_t daemon = daemons_.at(static_cast<std::size_t>(1 + node));
-    std::vector<pid_t> dead = Below(daemon);
-    // Its steps are no longer children of the daemon; they name its node.
-    for (const pid_t step : StepsOf(fmt::format("n{}", node))) {
-      const std::vector<pid_t> below = Below(step);
-      dead.insert(dead.end(), below.begin(), below.end());
-      dead.push_back(step);
-    }
+    pid_t& daemon = daemons_.at(static_cast<std::size_t>(1 + node));
+    ::kill(daemon, SIGSTOP);  // it starts nothing more
+    std::vector<pid_t> alive = Below(daemon);
     ::kill(daemon, SIGKILL);
-    for (const pid_t process : dead) ::kill(process, SIGKILL);
     ::waitpid(daemon, nullptr, 0);
-    daemons_.at(static_cast<std::size_t>(1 + node)) = -1;
+    daemon = -1;
+    Until([&] {
+      const std::vector<pid_t> of_jobs = ProcessesOf(fmt::format("n{}", node));
+      alive.insert(alive.end(), of_jobs.begin(), of_jobs.end());
+      for (const pid_t process : alive) ::kill(process, SIGKILL);
+      alive.clear();
+      return of_jobs.empty();  // a process may have started another one before it was killed
+    });
   }
 
   // Returns the descendants of a process.
@@ -133,25 +135,27 @@ class SlurmCluster {
     return processes;
   }
 
-  // Returns the slurmstepd processes of a node of this cluster, identified by the configuration and
-  // the node in the environment of their descendants.
-  std::vector<pid_t> StepsOf(const std::string& node) const {
-    std::vector<pid_t> steps;
+  // Returns the processes of the jobs on a node of this cluster, which have its configuration and
+  // its name in their environment, and the slurmstepd processes above them, which do not.
+  std::vector<pid_t> ProcessesOf(const std::string& node) const {
+    const std::string conf = "SLURM_CONF=" + (folder_ / "slurm.conf").string();
+    const std::string name = "SLURMD_NODENAME=" + node;
+    const auto is_its = [&](pid_t process) {
+      const std::string environment = '\0' + Read(Proc(process) / "environ");
+      return environment.find('\0' + conf + '\0') != std::string::npos &&
+             environment.find('\0' + name + '\0') != std::string::npos;
+    };
+    std::vector<pid_t> found;
     for (const auto& [process, parent] : Processes()) {
-      const std::filesystem::path proc = std::filesystem::path("/proc") / std::to_string(process);
-      if (!Read(proc / "comm").starts_with("slurmstepd")) continue;
-      for (const pid_t below : Below(process)) {
-        const std::string environment =
-            Read(std::filesystem::path("/proc") / std::to_string(below) / "environ");
-        if (environment.find("SLURM_CONF=" + (folder_ / "slurm.conf").string()) !=
-                std::string::npos &&
-            environment.find(std::string("SLURMD_NODENAME=") + node + '\0') != std::string::npos) {
-          steps.push_back(process);
-          break;
-        }
-      }
+      if (!is_its(process)) continue;
+      found.push_back(process);
+      if (Read(Proc(parent) / "comm").starts_with("slurmstepd")) found.push_back(parent);
     }
-    return steps;
+    return found;
+  }
+
+  static std::filesystem::path Proc(pid_t process) {
+    return std::filesystem::path("/proc") / std::to_string(process);
   }
 
   static std::string Read(const std::filesystem::path& path) {

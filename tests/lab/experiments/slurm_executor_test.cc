@@ -263,12 +263,12 @@ TEST(SlurmExecutor, OnAClusterTasksEndAndANodeThatDiesIsTold) {
   ASSERT_TRUE(ends.contains(3));
   EXPECT_TRUE(ends[3].code != 0 || ends[3].signal || !ends[3].trouble.empty());
   // A node dies with what runs on it.
-  executor.Add(4, Shell(folder, "long", "echo $SLURMD_NODENAME > node; exec sleep 120"));
+  executor.Add(4, Shell(folder, "long", "echo $SLURMD_NODENAME; exec sleep 120"));
   executor.Submit();
   const fs::path log = LogOf(folder / "runs/long");
-  ASSERT_TRUE(SlurmCluster::Until([&] { return cluster.Say("squeue -h -t R -o %N") != ""; }));
-  const std::string node = cluster.Say("squeue -h -t R -o %N");
-  cluster.KillNode(node == "n1\n" ? 1 : 2);
+  const auto said = [&] { return fs::exists(log) ? Contents(log) : ""; };
+  ASSERT_TRUE(SlurmCluster::Until([&] { return said().ends_with('\n'); })) << cluster.Log();
+  cluster.KillNode(said() == "n1\n" ? 1 : 2);
   ends = WaitFor(executor, 1);
   ASSERT_TRUE(ends.contains(4)) << cluster.Log();
   EXPECT_TRUE(ends[4].by_machine) << ends[4].trouble;
