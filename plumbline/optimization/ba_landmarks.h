@@ -8,7 +8,9 @@
 #include "plumbline/optimization/schur_solver.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -38,6 +40,12 @@ concept HoldsGauge = requires(const typename Kind::View& view,
   Kind::HoldGauge(view, equations);
 };
 
+// Requires that landmarks of this kind can be carried along with a pose.
+template <class Kind>
+concept CanBeCarried = requires(const typename Kind::State& state, const BaPose& pose) {
+  Kind::Carried(state, pose, pose);
+};
+
 // All landmarks of one kind (BaPoint, BaLine) with their observations, stored by landmark and
 // within each by pose; landmarks are linearized, eliminated and moved in that order. Internal to
 // bundle_adjuster.h.
@@ -64,8 +72,10 @@ class BaLandmarks {
                  double lambda,
                  SchurSolver& solver);
   // Moves all landmarks by the solved step to trial states. A landmark whose cost rises by the step
-  // is moved on its own instead. Returns the cost under the trial poses.
-  double Try(const std::vector<BaPose>& trial_poses,
+  // is moved on its own instead. One that would be behind a camera, moved or not, is first carried
+  // along with a pose that shows it. Returns the cost under the trial poses.
+  double Try(const std::vector<BaPose>& poses,
+             const std::vector<BaPose>& trial_poses,
              const HuberThresholds& huber,
              const SchurSolver& solver);
   // Returns the landmarks' share of the decrease of the cost that the linear model predicts.
@@ -118,12 +128,18 @@ class BaLandmarks {
                                           const std::vector<BaPose>& poses,
                                           const HuberThresholds& huber,
                                           SchurSolver* solver);
-  // Sets the trial of a landmark by a few damped steps from its state (with cost `still`) under
-  // fixed poses. The damping of the landmark is kept from call to call.
+  // Moves the trial of a landmark (with cost `still`) by a few damped steps under fixed poses. The
+  // damping of the landmark is kept from call to call.
   void MoveAlone(std::size_t i,
                  double still,
                  const std::vector<BaPose>& trial_poses,
                  const HuberThresholds& huber);
+  // Moves the trial of a landmark with the pose of its first observation that leaves its cost
+  // finite. Returns that cost; infinity if there is none.
+  double Carry(std::size_t i,
+               const std::vector<BaPose>& poses,
+               const std::vector<BaPose>& trial_poses,
+               const HuberThresholds& huber);
   std::span<KeptCoupling> Couplings(std::size_t landmark) {
     return {couplings_.data() + coupling_begin_[landmark],
             couplings_.data() + coupling_begin_[landmark + 1]};
@@ -281,7 +297,25 @@ void BaLandmarks<Kind>::Eliminate(const std::vector<BaPose>& poses,
 }
 
 template <class Kind>
-double BaLandmarks<Kind>::Try(const std::vector<BaPose>& trial_poses,
+double BaLandmarks<Kind>::Carry(std::size_t i,
+                                const std::vector<BaPose>& poses,
+                                const std::vector<BaPose>& trial_poses,
+                                const HuberThresholds& huber) {
+  if constexpr (CanBeCarried<Kind>) {
+    for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
+      if (!used_[k]) continue;
+      const auto pose = static_cast<std::size_t>(observations_[k].pose);
+      trial_[i] = Kind::Carried(states_[i], poses[pose], trial_poses[pose]);
+      const double cost = CostOf(i, trial_[i], trial_poses, huber);
+      if (std::isfinite(cost)) return cost;
+    }
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+template <class Kind>
+double BaLandmarks<Kind>::Try(const std::vector<BaPose>& poses,
+                              const std::vector<BaPose>& trial_poses,
                               const HuberThresholds& huber,
                               const SchurSolver& solver) {
   double sum = 0;
@@ -299,7 +333,14 @@ double BaLandmarks<Kind>::Try(const std::vector<BaPose>& trial_poses,
     trial_cost_[i] = CostOf(i, trial_[i], trial_poses, huber);
     if (eliminated.regular && !(trial_cost_[i] <= cost_[i])) {
       const double still = CostOf(i, states_[i], trial_poses, huber);
+      if (!std::isfinite(trial_cost_[i]) && !std::isfinite(still)) {
+        const double carried = Carry(i, poses, trial_poses, huber);
+        MoveAlone(i, carried, trial_poses, huber);
+        sum += trial_cost_[i];
+        continue;
+      }
       if (!(trial_cost_[i] <= still)) {
+        trial_[i] = states_[i];
         MoveAlone(i, still, trial_poses, huber);
         sum += trial_cost_[i];
         continue;
@@ -317,7 +358,6 @@ void BaLandmarks<Kind>::MoveAlone(std::size_t i,
                                   const std::vector<BaPose>& trial_poses,
                                   const HuberThresholds& huber) {
   constexpr int kSteps = 5;
-  trial_[i] = states_[i];
   trial_cost_[i] = still;
   if (!std::isfinite(still)) return;
   double& lambda = own_lambda_[i];

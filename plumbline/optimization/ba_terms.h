@@ -43,6 +43,10 @@ struct BaPoint {
   static Place MakePlace(const State& state) { return state; }
   static View MakeView(const State& state) { return state; }
   static State Retract(const State& state, const Eigen::Vector3d& step) { return state + step; }
+  // Returns the point that is at the same place in the camera after the pose has moved.
+  static State Carried(const State& state, const BaPose& before, const BaPose& after) {
+    return after.R.transpose() * (before.ToCamera(state) - after.cam_from_world.translation);
+  }
   static double Huber(const Term& term, const HuberThresholds& huber) {
     return term.disparity_weight > 0 ? huber.disparity : huber.point;
   }

@@ -197,6 +197,23 @@ TEST(SolveLocalBa, APointBehindTheCameraIsAnOutlierAndHarmless) {
   EXPECT_LT(LargestPoseError(result, scene.truth), kDrift);
 }
 
+// A point just before a camera that has to move past it by far.
+TEST(SolveLocalBa, APointThatACameraMovesPastDoesNotHoldItBack) {
+  BaScene scene = MakeBaScene(9, {.sigma = 1});
+  constexpr std::size_t kPose = 12;
+  Rigid3& start = scene.problem.poses[kPose].cam_from_world;
+  start = scene.truth.poses[kPose].cam_from_world;
+  start.translation.z() += 0.3;
+  const int point = static_cast<int>(scene.problem.points.size());
+  scene.problem.points.push_back(Inverse(start) * Eigen::Vector3d(0, 0, 0.1));
+  const BaProblem& p = scene.problem;
+  scene.problem.point_observations.push_back({kPose, point, {{p.camera.cx, p.camera.cy}, 1, {}}});
+  const BaResult result = SolveLocalBa(scene.problem);
+  EXPECT_EQ(result.termination, BaTermination::kConverged);
+  EXPECT_LE(result.iterations, 12);
+  EXPECT_LT(LargestPoseError(result, scene.truth), kDrift);
+}
+
 TEST(SolveLocalBa, NotANumberInTheInputIsReportedAndChangesNothing) {
   BaScene scene = MakeBaScene(10, {.points = 20, .lines = 5});
   scene.problem.points[3].x() = std::numeric_limits<double>::quiet_NaN();
