@@ -8,6 +8,7 @@
 #include "plumbline/optimization/multifrontal_cholesky.h"
 #include "plumbline/optimization/pose_uncertainty.h"
 #include "plumbline/optimization/problem.h"
+#include "plumbline/optimization/schur_solver.h"
 
 #include <cstddef>
 #include <limits>
@@ -59,9 +60,18 @@ MapProblem MakeWholeMap(const Map& map,
 }
 
 // Returns true if solving the problem would take longer than solving one of `limit` keyframes that
-// all share landmarks. Only a problem of more keyframes can.
-bool TakesTooLong(const MapProblem& whole, int limit, const StopCheck& stop) {
-  return FullSize(PlanElimination(SharingPoses(whole.problem, stop), stop)) > limit;
+// all share landmarks. Only a problem of more keyframes can. The problem stays as it is.
+bool TakesTooLong(BaProblem& problem, int limit, const StopCheck& stop) {
+  const BlockPattern sharing = SharingPoses(problem, stop);
+  if (FullSize(PlanElimination(sharing, stop)) <= limit) return false;
+  if (problem.line_observations.empty()) return true;
+  std::size_t blocks = sharing.size();
+  for (const std::vector<int>& others : sharing) blocks += others.size();
+  auto lines = std::exchange(problem.line_observations, {});
+  const EliminationPlan of_points = PlanElimination(SharingPoses(problem, stop), stop);
+  problem.line_observations = std::move(lines);
+  const double size = limit;
+  return IteratingWork(of_points, blocks) > size * size * size / 6;
 }
 
 // Poses and points of a problem, to be kept and put back without its observations.
@@ -231,7 +241,10 @@ MapCorrection AdjustWholeMap(const Map& map,
     return MakeWholeMap(of, imaging, lines.weights(), {}, stop);
   };
   // The search for lines is skipped if the points alone show that the map takes too long.
-  if (large && TakesTooLong(without_lines(map), limit, stop)) return {};
+  if (large) {
+    MapProblem points = without_lines(map);
+    if (TakesTooLong(points.problem, limit, stop)) return {};
+  }
   MapCorrection to_lens;
   std::optional<Map> moved;
   AdjustmentProgress not_wanted;
@@ -255,7 +268,7 @@ MapCorrection AdjustWholeMap(const Map& map,
   MapProblem whole = MakeWholeMap(at_lens, imaging, lines.weights(), well_seen, stop);
   // Long lines that are seen from far away can tie many keyframes together, so that solving would
   // take too long.
-  if (large && TakesTooLong(whole, limit, stop)) whole = without_lines(at_lens);
+  if (large && TakesTooLong(whole.problem, limit, stop)) whole = without_lines(at_lens);
   if (IsToStop(stop)) return {};
   PosesAndPoints start{whole.problem.poses, whole.problem.points};
   std::optional<BaResult> result;

@@ -119,6 +119,7 @@ bool BundleAdjuster<LineKind>::ComputeStep(const HuberThresholds& huber, double 
   solver_.Reset();
   points_.Eliminate(poses_, huber, lambda, solver_);
   if (IsToStop(stop_)) return false;
+  solver_.LaterLandmarksMayTie();
   lines_.Eliminate(poses_, huber, lambda, solver_);
   return solver_.Solve(lambda, stop_);
 }

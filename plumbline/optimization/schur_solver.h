@@ -40,6 +40,19 @@ class SymmetricBlocks {
   const Matrix6d& Diagonal(int row) const {
     return blocks_[static_cast<std::size_t>(rows_[static_cast<std::size_t>(row)].places.back())];
   }
+  // Returns the block at row >= column; zero if it is not stored.
+  Matrix6d Of(int row, int column) const {
+    const Row& r = rows_[static_cast<std::size_t>(row)];
+    const int place = column < r.first ? -1 : r.places[static_cast<std::size_t>(column - r.first)];
+    return place < 0 ? Matrix6d::Zero() : blocks_[static_cast<std::size_t>(place)];
+  }
+  // Returns true if the block at row >= column is one of the first `count` that were stored.
+  bool IsAmongFirst(std::size_t count, int row, int column) const {
+    const Row& r = rows_[static_cast<std::size_t>(row)];
+    if (column < r.first) return false;
+    const int place = r.places[static_cast<std::size_t>(column - r.first)];
+    return place >= 0 && static_cast<std::size_t>(place) < count;
+  }
 
   // Calls visit(column, block) for the stored blocks of a row left of the diagonal, ordered by
   // column.
@@ -52,6 +65,14 @@ class SymmetricBlocks {
     }
   }
   BlockPattern Pattern() const;
+
+  // A stored block left of the diagonal, and where it is stored; valid while count() is the same.
+  struct Left {
+    int row, column;
+    std::size_t place;
+  };
+  std::vector<Left> AllLeft() const;
+  const Matrix6d& At(const Left& left) const { return blocks_[left.place]; }
 
  private:
   struct Row {
@@ -146,13 +167,27 @@ struct EliminatedLandmark {
 // stored, and the poses are eliminated in an order with little fill-in (PlanElimination). Time and
 // memory then grow linearly with the number of poses if these share landmarks with neighbours only,
 // even for paths with revisits.
+//
+// A few landmarks that poses far apart share, e.g. long lines, may fill most of the factor. If
+// there are any (LaterLandmarksMayTie) and that takes less than half of the time, the system is
+// solved by preconditioned conjugate gradients, to a ten-thousandth of the decrease of the linear
+// model. The preconditioner is the factor of the system without the blocks by which these landmarks
+// couple groups of poses. A group shares earlier landmarks with its first pose. The preconditioner
+// is positive definite whenever the system is.
 class SchurSolver {
  public:
   explicit SchurSolver(int free_poses);
 
   // Clears the equations.
   void Reset();
+  // Tells that landmarks eliminated from now on may be shared by poses that share none of those
+  // eliminated before.
+  void LaterLandmarksMayTie();
   PoseEquations& pose(int index) { return poses_[static_cast<std::size_t>(index)]; }
+  // Adds a block w J_row^T J_column of an observation that depends on two free poses, row > column.
+  void AddCoupling(int row, int column, const Matrix6d& block) {
+    complement_.At(row, column) -= block;
+  }
 
   // Eliminates one landmark. `couplings` must be ordered by pose, with each pose at most once; on
   // return they hold Z. O(couplings squared); allocates if, of more than 200 poses, two share a
@@ -165,6 +200,8 @@ class SchurSolver {
   // Solves for the steps of the poses. Returns false if the damped system is not positive definite,
   // and when stopped.
   bool Solve(double lambda, const StopCheck& stop = {});
+  // Returns true if the last solution was found by conjugate gradients.
+  bool iterative() const { return iterative_; }
   Eigen::Ref<const Vector6d> step(int index) const { return step_.segment<6>(6 * index); }
 
   // Returns the step of an eliminated landmark after Solve(). The couplings may be kept in single
@@ -187,16 +224,39 @@ class SchurSolver {
   // Returns H + lambda diag(H) of a pose minus its part of the sum of Z Z^T; only the lower
   // triangle is valid.
   Matrix6d DiagonalBlock(std::size_t pose, double lambda) const;
+  // Sets group_of_ to the groups of couplings whose poses share earlier landmarks with the first
+  // pose of the group.
+  template <int kDof>
+  void FindGroups(std::span<Coupling<kDof>> couplings);
+  // Plans the factorization, of the whole system or of the preconditioner. Returns false when
+  // stopped.
+  bool Plan(const StopCheck& stop);
   void Fill(double lambda);
+  // Multiplies by the system of the poses.
+  Eigen::VectorXd Product(const Eigen::VectorXd& x) const;
+  // Replaces the right hand side in step_ by the solution. Returns false if the system is not
+  // positive definite, and when stopped.
+  bool SolveIteratively(const StopCheck& stop);
 
   std::vector<PoseEquations> poses_;
   SymmetricBlocks complement_;          // sum of Z Z^T; on the diagonal only the lower triangle
+  SymmetricBlocks ties_;                // its part between groups, not in complement_
   std::vector<Vector6d> complement_g_;  // sum of Z y
-  MultifrontalCholesky cholesky_;       // factorizes the system of the poses
-  // Number of blocks of complement_ for which cholesky_ was planned.
-  std::size_t planned_blocks_ = 0;
+  bool may_tie_ = false;                // true after LaterLandmarksMayTie
+  std::size_t earlier_blocks_ = 0;      // blocks of complement_ at its first call
+  std::vector<int> group_of_;           // group of each coupling of one landmark
+  MultifrontalCholesky cholesky_;       // factorizes the system of the poses, or a preconditioner
+  bool iterative_ = false;
+  // Numbers of blocks of complement_ and ties_ for which cholesky_ was planned.
+  std::size_t planned_blocks_ = 0, planned_ties_ = 0;
+  std::vector<SymmetricBlocks::Left> left_, left_ties_;  // all blocks, for products
+  std::vector<Matrix6d> diagonal_;                       // diagonal blocks of the system
   Eigen::VectorXd step_;
 };
+
+// Returns the work to solve by preconditioned conjugate gradients a system with so many blocks, as
+// EliminationPlan::multiplications that take as long.
+double IteratingWork(const EliminationPlan& preconditioner, std::size_t blocks);
 
 template <int kDof>
 bool EliminatedLandmark<kDof>::Factor(const LandmarkEquations<kDof>& equations, double lambda) {
@@ -249,14 +309,30 @@ EliminatedLandmark<kDof> SchurSolver::Eliminate(const LandmarkEquations<kDof>& l
     }
     complement_g_[static_cast<std::size_t>(coupling.pose)].noalias() += coupling.W * out.y;
   }
+  if (may_tie_) FindGroups(couplings);
   for (std::size_t i = 0; i < couplings.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      complement_.At(couplings[i].pose, couplings[j].pose).noalias() +=
+      SymmetricBlocks& blocks = may_tie_ && group_of_[i] != group_of_[j] ? ties_ : complement_;
+      blocks.At(couplings[i].pose, couplings[j].pose).noalias() +=
           couplings[i].W * couplings[j].W.transpose();
     }
     AddToLower(couplings[i].W, complement_.At(couplings[i].pose, couplings[i].pose));
   }
   return out;
+}
+
+template <int kDof>
+void SchurSolver::FindGroups(std::span<Coupling<kDof>> couplings) {
+  group_of_.resize(couplings.size());
+  for (std::size_t i = 0; i < couplings.size(); ++i) {
+    std::size_t first = 0;  // the first coupling of a group
+    while (first < i &&
+           !(group_of_[first] == static_cast<int>(first) &&
+             complement_.IsAmongFirst(earlier_blocks_, couplings[i].pose, couplings[first].pose))) {
+      ++first;
+    }
+    group_of_[i] = static_cast<int>(first);
+  }
 }
 
 template <int kDof, class Scalar>

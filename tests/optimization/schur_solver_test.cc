@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -146,30 +147,72 @@ struct SeenLandmark {
   std::vector<Coupling<3>> couplings;
 };
 
-// A path along which poses share landmarks with their neighbours, and its ends with one another.
-// `poses` get the equations of all observations.
-std::vector<SeenLandmark> LandmarksAlongPath(std::vector<PoseEquations>& poses) {
-  testing::Random random(5);
-  const auto uniform = [&random]() { return random.Uniform(-1, 1); };
-  const int count = static_cast<int>(poses.size());
-  std::vector<SeenLandmark> landmarks;
-  for (int i = 0; i < count; ++i) {
+// Poses with their equations, and landmarks with random observations from some of them.
+class SeenLandmarks {
+ public:
+  SeenLandmarks(std::size_t poses, unsigned seed) : poses_(poses), random_(seed) {}
+
+  // Adds a landmark that these poses see, ascending.
+  void Add(const std::vector<int>& seen_by, double weight = 1) {
+    const auto uniform = [&] { return weight * random_.Uniform(-1, 1); };
     SeenLandmark landmark;
-    std::vector<int> seen_by{i % count, (i + 1) % count, (i + 3) % count};
-    std::sort(seen_by.begin(), seen_by.end());
     for (const int pose : seen_by) {
       const Eigen::Matrix<double, kRows, 6> A = Eigen::MatrixXd::NullaryExpr(kRows, 6, uniform);
       const Eigen::Matrix<double, kRows, 3> B = Eigen::MatrixXd::NullaryExpr(kRows, 3, uniform);
       const Eigen::Matrix<double, kRows, 1> r = Eigen::VectorXd::NullaryExpr(kRows, uniform);
-      poses[static_cast<std::size_t>(pose)].H += A.transpose() * A;
-      poses[static_cast<std::size_t>(pose)].g += A.transpose() * r;
+      poses_[static_cast<std::size_t>(pose)].H += A.transpose() * A;
+      poses_[static_cast<std::size_t>(pose)].g += A.transpose() * r;
       landmark.equations.V += B.transpose() * B;
       landmark.equations.g += B.transpose() * r;
       landmark.couplings.push_back({pose, A.transpose() * B});
     }
-    landmarks.push_back(std::move(landmark));
+    landmarks_.push_back(std::move(landmark));
   }
-  return landmarks;
+  // Adds landmarks along a path, which poses share with their neighbours, and its ends with one
+  // another.
+  void AddPath() {
+    const int count = static_cast<int>(poses_.size());
+    for (int i = 0; i < count; ++i) {
+      std::vector<int> seen_by{i, (i + 1) % count, (i + 3) % count};
+      std::sort(seen_by.begin(), seen_by.end());
+      Add(seen_by);
+    }
+  }
+  // Adds landmarks that poses anywhere share.
+  void AddTies(int ties, double weight = 1) {
+    for (int i = 0; i < ties; ++i) {
+      std::set<int> seen_by;
+      while (seen_by.size() < 3) seen_by.insert(random_.Index(static_cast<int>(poses_.size())));
+      Add({seen_by.begin(), seen_by.end()}, weight);
+    }
+  }
+
+  const std::vector<PoseEquations>& poses() const { return poses_; }
+  const std::vector<SeenLandmark>& landmarks() const { return landmarks_; }
+
+ private:
+  std::vector<PoseEquations> poses_;
+  std::vector<SeenLandmark> landmarks_;
+  testing::Random random_;
+};
+
+// Gives a solver the equations. Landmarks from number `ties` on may tie.
+void Enter(const SeenLandmarks& seen, std::size_t ties, double lambda, SchurSolver& solver) {
+  solver.Reset();
+  for (std::size_t i = 0; i < seen.poses().size(); ++i) {
+    solver.pose(static_cast<int>(i)) = seen.poses()[i];
+  }
+  for (std::size_t i = 0; i < seen.landmarks().size(); ++i) {
+    if (i == ties) solver.LaterLandmarksMayTie();
+    SeenLandmark landmark = seen.landmarks()[i];
+    solver.Eliminate<3>(landmark.equations, lambda, landmark.couplings);
+  }
+}
+
+Eigen::VectorXd Steps(const SchurSolver& solver, std::size_t poses) {
+  Eigen::VectorXd steps(6 * static_cast<Eigen::Index>(poses));
+  for (int i = 0; i < static_cast<int>(poses); ++i) steps.segment<6>(6 * i) = solver.step(i);
+  return steps;
 }
 
 // The system of the poses with the landmarks eliminated, by dense matrices.
@@ -201,23 +244,67 @@ Eigen::VectorXd DenseSteps(const std::vector<PoseEquations>& poses,
 
 TEST(SchurSolver, SolvesAsWellWhereThePosesAreMany) {
   for (const std::size_t count : {200U, 201U, 260U}) {  // dense, and sparse
-    std::vector<PoseEquations> poses(count);
-    const std::vector<SeenLandmark> landmarks = LandmarksAlongPath(poses);
+    SeenLandmarks seen(count, 5);
+    seen.AddPath();
     SchurSolver solver(static_cast<int>(count));
     for (const double lambda : {0.1, 1e-6}) {  // the blocks stay from one to the next
-      const Eigen::VectorXd expected = DenseSteps(poses, landmarks, lambda);
-      solver.Reset();
-      for (std::size_t i = 0; i < count; ++i) solver.pose(static_cast<int>(i)) = poses[i];
-      for (SeenLandmark landmark : landmarks) {
-        solver.Eliminate<3>(landmark.equations, lambda, landmark.couplings);
-      }
+      const Eigen::VectorXd expected = DenseSteps(seen.poses(), seen.landmarks(), lambda);
+      Enter(seen, seen.landmarks().size(), lambda, solver);
       ASSERT_TRUE(solver.Solve(lambda));
-      for (std::size_t i = 0; i < count; ++i) {
-        const int index = static_cast<int>(i);
-        ASSERT_LT((solver.step(index) - expected.segment<6>(6 * index)).norm(), 1e-8) << count;
-      }
+      ASSERT_LT((Steps(solver, count) - expected).lpNorm<Eigen::Infinity>(), 1e-8) << count;
     }
   }
+}
+
+// Landmarks that poses far apart share fill the factor of the whole system.
+TEST(SchurSolver, IteratesWhereLaterLandmarksTieManyPoses) {
+  constexpr std::size_t kMany = 600;
+  for (const double weight : {1.0, 100.0}) {
+    SeenLandmarks seen(kMany, 6);
+    seen.AddPath();
+    seen.AddTies(400, weight);
+    SchurSolver solver(kMany), direct(kMany);
+    for (const double lambda : {0.1, 1e-6}) {
+      Enter(seen, kMany, lambda, solver);
+      ASSERT_TRUE(solver.Solve(lambda));
+      EXPECT_TRUE(solver.iterative());
+      Enter(seen, seen.landmarks().size(), lambda, direct);
+      ASSERT_TRUE(direct.Solve(lambda));
+      EXPECT_FALSE(direct.iterative());
+      const Eigen::VectorXd expected = Steps(direct, kMany);
+      EXPECT_LT((Steps(solver, kMany) - expected).norm(), 0.02 * expected.norm()) << weight;
+    }
+  }
+}
+
+TEST(SchurSolver, FactorizesWhatFewLandmarksTie) {
+  constexpr std::size_t kMany = 260;
+  SeenLandmarks seen(kMany, 7);
+  seen.AddPath();
+  seen.AddTies(5);
+  SchurSolver solver(kMany);
+  Enter(seen, kMany, 1e-6, solver);
+  ASSERT_TRUE(solver.Solve(1e-6));
+  EXPECT_FALSE(solver.iterative());
+  const Eigen::VectorXd expected = DenseSteps(seen.poses(), seen.landmarks(), 1e-6);
+  EXPECT_LT((Steps(solver, kMany) - expected).lpNorm<Eigen::Infinity>(), 1e-8);
+}
+
+TEST(SchurSolver, AddsWhatCouplesTwoPoses) {
+  testing::Random random(9);
+  const Eigen::Matrix<double, 20, 12> J =
+      Eigen::MatrixXd::NullaryExpr(20, 12, [&] { return random.Uniform(-1, 1); });
+  const Eigen::Matrix<double, 20, 1> r =
+      Eigen::VectorXd::NullaryExpr(20, [&] { return random.Uniform(-1, 1); });
+  SchurSolver solver(2);
+  for (int i = 0; i < 2; ++i) {
+    solver.pose(i).H = J.middleCols<6>(6 * i).transpose() * J.middleCols<6>(6 * i);
+    solver.pose(i).g = J.middleCols<6>(6 * i).transpose() * r;
+  }
+  solver.AddCoupling(1, 0, J.rightCols<6>().transpose() * J.leftCols<6>());
+  ASSERT_TRUE(solver.Solve(0));
+  const Eigen::VectorXd expected = -(J.transpose() * J).ldlt().solve(J.transpose() * r);
+  EXPECT_LT((Steps(solver, 2) - expected).norm(), 1e-9);
 }
 
 TEST(SchurSolver, ManyPosesWithoutObservationsStayOrAreRefused) {
