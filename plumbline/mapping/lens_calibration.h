@@ -33,22 +33,23 @@ struct RadialCalibration {
 // the scale wherever the camera turns, because landmarks move from the side of the image to its
 // centre.
 //
-// Method: the profile of the cost over the correction is sampled. For each correction all poses and
-// points are adjusted (bundle adjustment of the points alone), starting from the solution for the
-// nearest correction so far: from further away a few points converge to positions that fit no
-// correction. The minimum is found by successive parabolas and combined with a normal prior about
-// zero, whose standard deviation is a hundredth of the image's width. A correction is accepted only
-// if it lowers the cost by more than a deviation of six would (a likelihood ratio of 36); on
-// straight motion the distortion is unobservable. If measurements are already corrected, the same
-// test applies to the total correction: it is updated to the current estimate, or removed if the
-// points are as clearly against it. There is no change if depth is measured (a pair), if it would
-// be smaller than 2e-4 of the image's width, or when stopped.
+// Method: Newton's method on the cost as a function of the correction, with all poses and points
+// adjusted. At each correction they are adjusted (bundle adjustment of the points alone) from the
+// solution for the nearest correction so far: from further away a few points converge to positions
+// that fit no correction. Slope and curvature there follow from the normal equations, with the
+// correction as one more unknown. The minimum is combined with a normal prior about zero, whose
+// standard deviation is a hundredth of the image's width. A correction is accepted only if it
+// lowers the cost by more than a deviation of six would (a likelihood ratio of 36); on straight
+// motion the distortion is unobservable. If measurements are already corrected, the same test
+// applies to the total correction: it is updated to the current estimate, or removed if the points
+// are as clearly against it. There is no change if depth is measured (a pair), if it would be
+// smaller than 2e-4 of the image's width, or when stopped.
 //
 //   problem   of a whole map: poses with a fixed gauge, points with all observations
 //   known_px  border_px of the correction already applied to the measurements
 //   returns   the correction to be applied in addition
-//   cost      that of three adjustments of the points alone, of up to ten if there may be a
-//             correction
+//   cost      that of one adjustment of the points alone and one more iteration, of up to seven if
+//             there may be a correction
 RadialCalibration CalibrateRadialDistortion(const BaProblem& problem,
                                             double known_px = 0,
                                             const StopCheck& stop = {});
