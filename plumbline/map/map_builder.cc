@@ -62,7 +62,7 @@ bool ComesToAnEnd(const std::map<Key, Value>& next_of, const Next& next) {
 
 }  // namespace
 
-MapBuilder::MapBuilder(MapRecord record, std::string source)
+MapBuilder::MapBuilder(const MapRecord& record, std::string source)
     : map_(record.id), source_(std::move(source)) {
   CheckRecord(record);
   map_.version_ = record.version;

@@ -20,7 +20,7 @@ inline constexpr std::int64_t kMaxBuiltId = std::int64_t{1} << 29;
 class MapBuilder {
  public:
   // `source` names the origin of the map in messages.
-  MapBuilder(MapRecord record, std::string source);
+  MapBuilder(const MapRecord& record, std::string source);
 
   // Adds a keyframe. Its matches are cleared, since they follow from the observations of the
   // landmarks. Its features must have the map's correction (BugError).

@@ -209,8 +209,12 @@ RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)), part_(folder
 
 RunFolder::~RunFolder() {
   if (keep_) return;
-  RemovePart(part_);
-  RemoveFolders();
+  try {
+    RemovePart(part_);
+    RemoveFolders();
+  } catch (...) {
+    // Memory ran out: the next run in the folder removes the part.
+  }
 }
 
 void RunFolder::Open() {

@@ -168,7 +168,7 @@ void DrawCoordinate(
 }
 
 // Draws x, y, z on the left and roll, pitch, yaw on the right.
-void DrawCoordinates(const Drawn& drawn, FigurePanel area, Figure& figure) {
+void DrawCoordinates(const Drawn& drawn, const FigurePanel& area, Figure& figure) {
   constexpr std::array kNames = {"x [m]", "y [m]", "z [m]"};
   constexpr std::array kAngles = {"roll [deg]", "pitch [deg]", "yaw [deg]"};
   constexpr double kBetween = 80, kApart = 40, kFullTurn = 360;

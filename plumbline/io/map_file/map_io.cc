@@ -274,7 +274,7 @@ Map ReadMap(SectionReader& file, const AtlasContext& context) {
     record.correction.lens = LensCorrection(context.camera, border_px);
   }
   CheckEnd(reader);
-  MapBuilder builder(std::move(record), file.source());
+  MapBuilder builder(record, file.source());
   ReadKeyFrames(file, context, counts.keyframes, builder);
   ReadLandmarks<MapPoint>(file, kPoints, counts.points, builder);
   ReadLandmarks<MapLine>(file, kLines, counts.lines, builder);
