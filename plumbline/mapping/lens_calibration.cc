@@ -193,6 +193,7 @@ class Profile {
     options.rounds = 1;
     options.max_iterations = 40;
     options.function_tolerance = 1e-6;
+    options.carry_points = true;
     BaResult result = SolveLocalBa(corrected, options, stop_);
     if (result.termination == BaTermination::kStopped ||
         result.termination == BaTermination::kNotFinite ||

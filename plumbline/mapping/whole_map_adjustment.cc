@@ -121,6 +121,7 @@ std::optional<BaResult> SolveForLens(const RadialCalibration& lens,
   ba.rounds = 1;
   ba.max_iterations = 40;
   ba.function_tolerance = 1e-6;
+  ba.carry_points = true;
   PosesAndPoints start{problem.poses, problem.points};
   return SolveAndFixScale(problem, start, ba, SolveLocalBa, options.window.local_limits(), stop);
 }

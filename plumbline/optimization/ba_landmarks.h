@@ -72,11 +72,12 @@ class BaLandmarks {
                  double lambda,
                  SchurSolver& solver);
   // Moves all landmarks by the solved step to trial states. A landmark whose cost rises by the step
-  // is moved on its own instead. One that would be behind a camera, moved or not, is first carried
-  // along with a pose that shows it. Returns the cost under the trial poses.
+  // is moved on its own instead. With `carry`, one that would be behind a camera, moved or not, is
+  // first carried along with a pose that shows it. Returns the cost under the trial poses.
   double Try(const std::vector<BaPose>& poses,
              const std::vector<BaPose>& trial_poses,
              const HuberThresholds& huber,
+             bool carry,
              const SchurSolver& solver);
   // Returns the landmarks' share of the decrease of the cost that the linear model predicts.
   double expected_decrease() const { return expected_; }
@@ -317,6 +318,7 @@ template <class Kind>
 double BaLandmarks<Kind>::Try(const std::vector<BaPose>& poses,
                               const std::vector<BaPose>& trial_poses,
                               const HuberThresholds& huber,
+                              bool carry,
                               const SchurSolver& solver) {
   double sum = 0;
   expected_ = 0;
@@ -333,7 +335,7 @@ double BaLandmarks<Kind>::Try(const std::vector<BaPose>& poses,
     trial_cost_[i] = CostOf(i, trial_[i], trial_poses, huber);
     if (eliminated.regular && !(trial_cost_[i] <= cost_[i])) {
       const double still = CostOf(i, states_[i], trial_poses, huber);
-      if (!std::isfinite(trial_cost_[i]) && !std::isfinite(still)) {
+      if (carry && !std::isfinite(trial_cost_[i]) && !std::isfinite(still)) {
         const double carried = Carry(i, poses, trial_poses, huber);
         MoveAlone(i, carried, trial_poses, huber);
         sum += trial_cost_[i];

@@ -134,8 +134,9 @@ double BundleAdjuster<LineKind>::Try(const HuberThresholds& huber) {
     expected_ -= 0.5 * solver_.pose(index).g.dot(step);
     trial_poses_[i].Set(RetractLeft(poses_[i].cam_from_world, step));
   }
-  const double cost = points_.Try(poses_, trial_poses_, huber, solver_) +
-                      lines_.Try(poses_, trial_poses_, huber, solver_);
+  const bool carry = options_.carry_points;
+  const double cost = points_.Try(poses_, trial_poses_, huber, carry, solver_) +
+                      lines_.Try(poses_, trial_poses_, huber, carry, solver_);
   expected_ += points_.expected_decrease() + lines_.expected_decrease();
   return cost;
 }

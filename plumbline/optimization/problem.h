@@ -140,6 +140,9 @@ struct LocalBaOptions {
   // function_tolerance, and none is skipped.
   double rejection_tolerance = 0;
   bool robust = true;  // Huber loss (kHuberThresholds); false: plain squares
+  // A step that leaves a point behind a camera carries the point along with a pose; false: such a
+  // step is refused.
+  bool carry_points = false;
 };
 
 template <class Visitor>

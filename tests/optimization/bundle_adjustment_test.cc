@@ -208,7 +208,9 @@ TEST(SolveLocalBa, APointThatACameraMovesPastDoesNotHoldItBack) {
   scene.problem.points.push_back(Inverse(start) * Eigen::Vector3d(0, 0, 0.1));
   const BaProblem& p = scene.problem;
   scene.problem.point_observations.push_back({kPose, point, {{p.camera.cx, p.camera.cy}, 1, {}}});
-  const BaResult result = SolveLocalBa(scene.problem);
+  LocalBaOptions options;
+  options.carry_points = true;
+  const BaResult result = SolveLocalBa(scene.problem, options);
   EXPECT_EQ(result.termination, BaTermination::kConverged);
   EXPECT_LE(result.iterations, 12);
   EXPECT_LT(LargestPoseError(result, scene.truth), kDrift);
