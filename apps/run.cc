@@ -449,6 +449,20 @@ InertialInput UseInertial(const CommandLine& line, RunFrames& input, System& sys
   return inertial;
 }
 
+RunDescription DescribeRun(const CommandLine& line,
+                           std::span<const std::string> arguments,
+                           const RunSetup& setup,
+                           const RunFrames& input) {
+  RunDescription description{PLUMBLINE_VERSION,
+                             WithoutPassword(line.Positional(0)),
+                             setup.options_yaml,
+                             setup.options.slam.seed,
+                             ToBeShown(arguments)};
+  description.frames_chosen = input.frames.size();
+  description.preset = line.Value("--preset");
+  return description;
+}
+
 }  // namespace
 
 int RunCommand(std::span<const std::string> arguments) {
@@ -488,17 +502,12 @@ int RunCommand(std::span<const std::string> arguments) {
   }
   if (input.live != nullptr) NoteFrames(result.frames, input);
   const Dataset& dataset = *input.dataset;
-  RunDescription description{PLUMBLINE_VERSION,
-                             WithoutPassword(line.Positional(0)),
-                             setup.options_yaml,
-                             setup.options.slam.seed,
-                             ToBeShown(arguments)};
-  description.frames_chosen = input.frames.size();
-  description.preset = line.Value("--preset");
+  RunDescription description = DescribeRun(line, arguments, setup, input);
   description.notes = inertial.notes;
   description.notes.insert(description.notes.end(), processed.notes.begin(), processed.notes.end());
+  const bool live = input.live != nullptr;
   const WrittenResults written = WriteResults(
-      {result, dataset, views, std::move(description), processed.first_pose_seconds, start},
+      {result, dataset, views, std::move(description), processed.first_pose_seconds, start, live},
       folder);
   if (!setup.quiet) {
     Print(result, dataset, written.earlier_kept ? folder.part() : folder.path());

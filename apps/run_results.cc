@@ -132,13 +132,15 @@ class ResultWriter {
   }
 
   // Returns true if an earlier run's results are more valuable: this one has no pose, or it was
-  // interrupted before its last frame and has fewer poses of the same data.
+  // interrupted, also at its end, or failed before its last frame, and has fewer poses of the same
+  // data.
   bool KeepsEarlier() const {
     const std::optional<EarlierRun> earlier = folder_.Earlier();
     if (!earlier) return false;
     const RunCounts counts = CountRun(run_.result);
     if (counts.tracked == 0) return true;
-    const bool cut_off = run_.result.frames.size() < description_.frames_chosen;
+    const bool cut_off =
+        (interrupted_ && !run_.live) || run_.result.frames.size() < description_.frames_chosen;
     const bool same = !earlier->data.empty() && IsSamePath(earlier->data, description_.data_path);
     return cut_off && same && static_cast<std::size_t>(counts.in_trajectory) < earlier->poses;
   }

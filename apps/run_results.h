@@ -24,6 +24,7 @@ struct FinishedRun {
       description;  // without the interruption, which is determined when the summary is written
   std::optional<double> first_pose_seconds;
   std::chrono::steady_clock::time_point start;
+  bool live = false;  // a signal is the usual end of a live source
 };
 
 struct WrittenResults {

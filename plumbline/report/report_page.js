@@ -112,10 +112,13 @@ function gyroscopeText() {
 function interruption() {
   const {interrupted, frames_chosen: chosen} = data.run;
   if (!interrupted) return [];
+  const {frames: count} = data.counts;
+  const text = count < chosen ?
+      `after ${whole(count)} of ${plural(chosen, "frame")}. The results are of these alone.` :
+      "after the last frame. Poses of frames before the map, and the adjustment of the whole map, " +
+          "may be missing.";
   return [make(
-      "p", {class: "interrupted", role: "alert"},
-      `Interrupted by ${interrupted} after ${whole(data.counts.frames)} of ` +
-          `${plural(chosen, "frame")}. The results are of these alone.`)];
+      "p", {class: "interrupted", role: "alert"}, `Interrupted by ${interrupted} ${text}`)];
 }
 
 function buildHeader() {

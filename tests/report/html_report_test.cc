@@ -94,6 +94,7 @@ TEST(HtmlReport, SaysWhatInterruptedTheRun) {
   EXPECT_EQ(DataOf(page)["run"]["interrupted"], "SIGHUP");
   EXPECT_EQ(DataOf(page)["run"]["frames_chosen"], 50);
   EXPECT_THAT(page, HasSubstr("Interrupted by ${interrupted}"));
+  EXPECT_THAT(page, HasSubstr("after the last frame. Poses of frames before the map"));
 }
 
 TEST(HtmlReport, HoldsTheWholeRun) {
