@@ -9,11 +9,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <new>
 #include <span>
 #include <system_error>
 #include <utility>
 
 #include <zstd.h>
+#include <zstd_errors.h>
 
 namespace plumbline {
 namespace {
@@ -120,6 +122,7 @@ SectionReader::Section SectionReader::Next() {
   section.contents.resize(static_cast<std::size_t>(size));
   const std::size_t unpacked =
       ZSTD_decompress(section.contents.data(), size, stored.data(), stored.size());
+  if (ZSTD_getErrorCode(unpacked) == ZSTD_error_memory_allocation) throw std::bad_alloc();
   if (ZSTD_isError(unpacked) != 0 || unpacked != size) {
     throw InputError(source_ + ": expected " + std::to_string(size) +
                      " bytes packed by zstd, found others");
