@@ -66,7 +66,7 @@ std::string Row(const std::string& name, const std::string& text) {
 }
 
 std::string BoxText(const Eigen::AlignedBox3d& box, const char* unit) {
-  return fmt::format("x {:.2f} to {:.2f}, y {:.2f} to {:.2f}, z {:.2f} to {:.2f}{}",
+  return fmt::format("x {:.2f} to {:.2f}, y {:.2f} to {:.2f}, z {:.2f} to {:.2f} {}",
                      box.min().x(),
                      box.max().x(),
                      box.min().y(),

@@ -17,6 +17,7 @@ namespace plumbline {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::EndsWith;
 using testing::HasSubstr;
 
@@ -88,6 +89,7 @@ TEST(MapInfo, SaysInWhatUnitLengthsAre) {
   saved.context.camera.baseline = 0;
   EXPECT_THAT(MapInfoTable(file, saved), HasSubstr("none: a single camera; lengths are in"));
   EXPECT_THAT(MapInfoTable(file, saved), HasSubstr(" units along the keyframes\n"));
+  EXPECT_THAT(MapInfoTable(file, saved), ContainsRegex("bounds .* to [0-9.-]+ units\n"));
   EXPECT_EQ(nlohmann::json::parse(MapInfoJson(file, saved))["unit"], "of the map");
 }
 
