@@ -91,9 +91,10 @@ class FrameFeed {
     if (result_.failure && frames_done_ == 0) std::rethrow_exception(result_.failure);
     if (frames_done_ > 0) folder_.Keep();
     Keeping([&] { Report(journal_.Write(folder_)); });
-    SayStopped();
+    const bool stopped = SayStopped();
     std::exception_ptr failure;
     result_.result = Adjust(&failure);
+    if (!stopped) SayCutShort();
     Keeping([&] {
       if (failure) std::rethrow_exception(failure);
     });
@@ -294,11 +295,24 @@ class FrameFeed {
     shortage_ = nullptr;
   }
 
-  void SayStopped() const {
+  // Returns true if a signal came before the end.
+  bool SayStopped() const {
+    const auto signal = FirstStopSignal();
+    if (!signal) return false;
+    if (!quiet_) {
+      progress_.Say(
+          fmt::format("{} after {}: finishing (once more: at once)", signal->name, HowFar()));
+    }
+    return true;
+  }
+
+  void SayCutShort() const {
     const auto signal = FirstStopSignal();
     if (!signal || quiet_) return;
     progress_.Say(
-        fmt::format("{} after {}: finishing (once more: at once)", signal->name, HowFar()));
+        fmt::format("{} at the end: poses of frames before the map, and the adjustment "
+                    "of the whole map, may be missing",
+                    signal->name));
   }
 
   const RunFrames& input_;

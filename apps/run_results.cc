@@ -13,6 +13,7 @@
 #include "apps/counted.h"
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -198,6 +199,22 @@ std::optional<std::string> WhyNoPose(const FrameLog& frames, bool no_depth) {
   return no_depth ? why + "; depth is zero everywhere" : why;
 }
 
+namespace {
+
+// What the calibration has left of the lens, from one pixel on.
+void PrintLens(const RunResult& result) {
+  const auto main = result.MainMap();
+  const Map* map = main ? result.atlas.Find(*main) : nullptr;
+  const double border_px = map != nullptr ? map->correction().lens.border_px() : 0;
+  if (std::abs(border_px) < 1) return;
+  std::cout << fmt::format(
+      "lens: corrected by {:.1f} px at the image's side, beyond the "
+      "calibration\n",
+      border_px);
+}
+
+}  // namespace
+
 void PrintResult(const RunResult& result, const Dataset& dataset, const std::string& folder) {
   const RunCounts counts = CountRun(result);
   std::cout << fmt::format(
@@ -209,15 +226,16 @@ void PrintResult(const RunResult& result, const Dataset& dataset, const std::str
       counts.dropped > 0 ? fmt::format(" ({} dropped)", counts.dropped) : std::string(),
       counts.initializing > 0 ? fmt::format(", {} before a map", counts.initializing)
                               : std::string());
-  if (counts.shed_mapping + counts.shed_lines + counts.shed_points + counts.demoted > 0) {
+  if (counts.shed_mapping + counts.shed_lines + counts.shed_points > 0) {
     std::cout << fmt::format(
         "load was reduced to keep up with the camera: in {} frames less mapping, in {} fewer lines "
-        "as "
-        "well, in {} fewer lines and points as well; {} keyframes were left out\n",
+        "as well, in {} fewer lines and points as well\n",
         counts.shed_mapping,
         counts.shed_lines,
-        counts.shed_points,
-        counts.demoted);
+        counts.shed_points);
+  }
+  if (counts.demoted > 0) {
+    std::cout << fmt::format("mapping left out {}\n", Counted(counts.demoted, "keyframe"));
   }
   const auto made = std::count_if(result.frames.begin(),
                                   result.frames.end(),
@@ -229,6 +247,7 @@ void PrintResult(const RunResult& result, const Dataset& dataset, const std::str
       Counted(counts.points, "point"),
       Counted(counts.lines, "line"),
       counts.maps > 1 ? fmt::format(" (largest of {} maps)", counts.maps) : std::string());
+  PrintLens(result);
   if (const auto gyroscope = DescribeGyroscope(result)) std::cout << *gyroscope << '\n';
   const auto error = CompareWithGroundTruth(result, dataset);
   if (error) {
