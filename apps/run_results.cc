@@ -201,7 +201,7 @@ std::optional<std::string> WhyNoPose(const FrameLog& frames, bool no_depth) {
 
 namespace {
 
-// What the calibration has left of the lens, from one pixel on.
+// Prints the correction of the lens that the run found, from one pixel on.
 void PrintLens(const RunResult& result) {
   const auto main = result.MainMap();
   const Map* map = main ? result.atlas.Find(*main) : nullptr;

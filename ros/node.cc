@@ -142,7 +142,7 @@ void Node::TellSilence(const Transport& transport) {
     missing.push_back(topic + (transport.HasPublisher(topic) ? " has no message that can be used"
                                                              : " has no publisher"));
   }
-  // Of one camera there are frames, and what is wrong with them was said.
+  // One camera has frames then, and the log says what is wrong with them.
   if (missing.empty() && parameters_.IsMono()) return;
   if (missing.empty()) missing.emplace_back("no two images have fitting stamps (parameter sync)");
   log_.Say(Severity::kWarning,

@@ -26,7 +26,7 @@ double FromMiddle(const RectifiedCamera& camera, const Eigen::Vector2d& px) {
   return (px - half).norm() / half.norm();
 }
 
-// What the observations so far tell about a landmark with kSize parameters, linearized.
+// A landmark with kSize parameters as the observations so far tell of it, linearized.
 template <int kSize>
 class Told {
  public:

@@ -117,38 +117,35 @@ Experiment StartPartsExperiment() {
   return experiment;
 }
 
-// Figure 7 of the first paper.
-std::vector<Variant> FrameVariants() {
+// Each method with each value of an option; the variant is named METHOD_LETTERVALUE.
+std::vector<Variant> VariantsByValue(const std::vector<std::string>& methods,
+                                     const std::string& key,
+                                     char letter,
+                                     const std::vector<int>& values) {
   std::vector<Variant> variants;
-  for (const char* method : {"rank1", "rank1_klt"}) {
-    for (int frames = 3; frames <= 10; ++frames) {
-      const std::string number = std::to_string(frames);
-      variants.push_back(
-          {method + ("_m" + number),
-           {std::string("initialization.method=") + method, "initialization.frames=" + number},
-           {},
-           method,
-           static_cast<double>(frames)});
+  for (const std::string& method : methods) {
+    for (const int value : values) {
+      const std::string number = std::to_string(value);
+      variants.push_back({method + "_" + letter + number,
+                          {"initialization.method=" + method, key + "=" + number},
+                          {},
+                          method,
+                          static_cast<double>(value)});
     }
   }
   return variants;
 }
 
+// Figure 7 of the first paper.
+std::vector<Variant> FrameVariants() {
+  return VariantsByValue(
+      {"rank1", "rank1_klt"}, "initialization.frames", 'm', {3, 4, 5, 6, 7, 8, 9, 10});
+}
+
 // Figure 8 of the first paper.
 std::vector<Variant> PointVariants() {
-  std::vector<Variant> variants;
-  for (const char* method : {"rank1", "rank1_klt", "two_view"}) {
-    for (const int points : {100, 200, 500, 1000, 2000}) {
-      const std::string number = std::to_string(points);
-      variants.push_back(
-          {method + ("_p" + number),
-           {std::string("initialization.method=") + method, "features.point_count=" + number},
-           {},
-           method,
-           static_cast<double>(points)});
-    }
-  }
-  return variants;
+  return VariantsByValue(
+      {"rank1", "rank1_klt", "two_view"}, "features.point_count", 'p', {100, 200, 500, 1000, 2000});
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ void TransferSegments(Archive& archive, Items& items, const Get& get) {
 }
 
 // Transfers a column of numbers that are floats or unsigned in memory and doubles in the archive.
-// Those read become the nearest number that fits.
+// Numbers that are read become the nearest ones that fit.
 template <class Archive, class Items, class Get>
 void TransferAsDoubles(Archive& archive, Items& items, const Get& get) {
   std::vector<double> column;

@@ -43,7 +43,7 @@ void TimeOrder::Add(const InertialSample& sample) {
   waiting_.push_back(sample);
   const bool follows = last_ns_ && waiting_.front().stamp_ns - *last_ns_ <= kNsPerSecond;
   if (!follows && waiting_.size() < kMostWaiting) return;
-  // What is far ahead of others that wait goes on waiting.
+  // Samples far ahead of others that wait go on waiting.
   Release(std::ranges::adjacent_find(waiting_, [](const auto& a, const auto& b) {
     return b.stamp_ns - a.stamp_ns > kNsPerSecond;
   }));

@@ -41,7 +41,7 @@ class TimeOrder {
 
  private:
   using Waiting = std::vector<InertialSample>;
-  // Those that wait up to this one, or all, are in order.
+  // Samples that wait up to this one, or all, are in order.
   void Release(Waiting::const_iterator last);
 
   std::optional<std::int64_t> last_ns_;  // of those in order

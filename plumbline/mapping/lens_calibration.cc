@@ -188,13 +188,7 @@ class Profile {
     corrected.point_observations = problem_.point_observations;
     if (!solved_.empty()) TakePosesAndPoints(Nearest(border_px), corrected);
     Correct({corrected.camera, border_px}, corrected);
-    LocalBaOptions options;
-    // No observation is taken out, so that all costs count the same observations.
-    options.rounds = 1;
-    options.max_iterations = 40;
-    options.function_tolerance = 1e-6;
-    options.carry_points = true;
-    BaResult result = SolveLocalBa(corrected, options, stop_);
+    BaResult result = SolveLocalBa(corrected, LensAdjustmentOptions({}), stop_);
     if (result.termination == BaTermination::kStopped ||
         result.termination == BaTermination::kNotFinite ||
         result.termination == BaTermination::kNothingToDo) {
@@ -249,6 +243,14 @@ bool Matters(double border_px, const BaProblem& problem) {
 }
 
 }  // namespace
+
+LocalBaOptions LensAdjustmentOptions(LocalBaOptions options) {
+  options.rounds = 1;
+  options.max_iterations = 40;
+  options.function_tolerance = 1e-6;
+  options.carry_points = true;
+  return options;
+}
 
 void Correct(const LensCorrection& correction, BaProblem& problem) {
   for (auto& o : problem.point_observations) o.measurement = Corrected(correction, o.measurement);

@@ -17,6 +17,10 @@ namespace plumbline {
 // deviations alike.
 void Correct(const LensCorrection& correction, BaProblem& problem);
 
+// Returns the options of an adjustment of poses and points to a lens: no observation is taken out,
+// so that the costs of several lenses count the same observations.
+LocalBaOptions LensAdjustmentOptions(LocalBaOptions options);
+
 // Result of CalibrateRadialDistortion.
 struct RadialCalibration {
   LensCorrection correction;

@@ -117,11 +117,7 @@ std::optional<BaResult> SolveForLens(const RadialCalibration& lens,
   if (!lens.points.empty()) problem.points = lens.points;
   problem.lines.clear();
   problem.line_observations.clear();
-  LocalBaOptions ba = options.ba;
-  ba.rounds = 1;
-  ba.max_iterations = 40;
-  ba.function_tolerance = 1e-6;
-  ba.carry_points = true;
+  const LocalBaOptions ba = LensAdjustmentOptions(options.ba);
   PosesAndPoints start{problem.poses, problem.points};
   return SolveAndFixScale(problem, start, ba, SolveLocalBa, options.window.local_limits(), stop);
 }

@@ -15,7 +15,7 @@
 
 namespace plumbline {
 
-// What AdjustWholeMap tells its caller on the way.
+// Progress that AdjustWholeMap tells its caller.
 struct AdjustmentProgress {
   std::vector<MappingStep> times = {};  // times of its steps, named as those of LocalMapper::Finish
   // Called with a new lens when keyframes and points are adjusted to it. The caller may then

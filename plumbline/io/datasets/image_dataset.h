@@ -73,7 +73,7 @@ void NoteMasks(const FoundMasks& masks,
 // reason tells both.
 ImageFailure FailureOf(ImageFailure failure, ImageSize wanted);
 
-// The same of a mask, whose size is to be that of its images.
+// Returns the failure of a mask; the reason tells both sizes if it differs from that of its images.
 ImageFailure MaskFailureOf(ImageFailure failure, std::optional<ImageSize> wanted);
 
 // Reads frames until one can be read, so that a calibration of another size is detected before the
