@@ -166,8 +166,15 @@ def make(program, data, out, earlier, more, names):
     for command, run in runs.items():
         print(command, flush=True)
         folder = out / shlex.split(command)[2]
-        subprocess.run([*run, "--out", folder, "--cache", out / "cache", "--jobs", "2", "--quiet"], check=True)
+        options = [] if computes_by_itself(program, folder.name) else ["--cache", out / "cache", "--jobs", "2"]
+        subprocess.run([*run, "--out", folder, "--quiet", *options], check=True)
         take(folder, command)
+
+
+# Whether an experiment makes no runs: it takes no options of runs then.
+def computes_by_itself(program, name):
+    listed = subprocess.run([program, "experiment", name, "--list"], check=True, text=True, capture_output=True).stdout
+    return "needs no sequences" in listed
 
 
 def cell(entry):

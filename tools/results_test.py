@@ -138,6 +138,25 @@ class Results(unittest.TestCase):
         self.assertEqual(results.command_of("one", []), "plumbline experiment all")
         self.assertEqual(results.command_of("all", ["--runs", "1"]), "plumbline experiment all --data DIR --runs 1")
 
+    def test_an_experiment_that_computes_gets_no_options_of_runs(self):
+        program, told = self.root / "program", self.root / "told"
+        program.write_text(f'''#!/bin/sh
+case "$*" in
+  "experiment two --list") echo "needs no sequences; repeats: 10" ;;
+  *--list) echo "sequences: worlds/room" ;;
+  *) echo "$*" >> {told} ;;
+esac
+''')
+        program.chmod(0o755)
+        taken, results.take = results.take, lambda *_: None
+        self.addCleanup(setattr, results, "take", taken)
+        results.make(str(program), "data", self.root / "out", None, ["--runs", "1"], ["one", "two"])
+        one, two = told.read_text().splitlines()
+        self.assertIn("--cache", one)
+        self.assertIn("--jobs 2", one)
+        self.assertNotIn("--cache", two)
+        self.assertNotIn("--jobs", two)
+
 
 if __name__ == "__main__":
     unittest.main()
