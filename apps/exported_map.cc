@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/exported_map.h"
 
+#include "plumbline/base/counted.h"
 #include "plumbline/base/error.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/export/colmap_model.h"
@@ -13,7 +14,6 @@
 #include "plumbline/report/run_files.h"
 
 #include "apps/command_line.h"
-#include "apps/counted.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/counted.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/options.h"
 #include "plumbline/base/printable.h"
@@ -75,8 +76,8 @@ void PrintTimes(const DatasetInfo& info) {
       return d > median + median / 2;
     });
     if (gaps > 0) {
-      rate += fmt::format("; {} gaps above 1.5 intervals, the longest {:.3f} s",
-                          gaps,
+      rate += fmt::format("; {} above 1.5 intervals, the longest {:.3f} s",
+                          Counted(gaps, "gap"),
                           static_cast<double>(intervals.back()) / kNanoseconds);
     }
   }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/counted.h"
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/sim3.h"
 #include "plumbline/io/atomic_file.h"
@@ -8,7 +9,6 @@
 
 #include "apps/command_line.h"
 #include "apps/command_outputs.h"
-#include "apps/counted.h"
 #include "apps/map_commands.h"
 #include "apps/merge_atlases.h"
 #include <array>

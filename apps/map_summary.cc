@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/map_summary.h"
 
+#include "plumbline/base/counted.h"
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/measured_depth.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/map/reprojection.h"
 
-#include "apps/counted.h"
 #include "apps/map_memory.h"
 #include <algorithm>
 #include <system_error>

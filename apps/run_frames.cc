@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/run_frames.h"
 
+#include "plumbline/base/counted.h"
 #include "plumbline/base/error.h"
 #include "plumbline/features/stereo_pair_check.h"
 #include "plumbline/image/filters.h"
@@ -10,7 +11,6 @@
 #include "plumbline/slam/pipeline.h"
 #include "plumbline/viewer/viewer.h"
 
-#include "apps/counted.h"
 #include "apps/inertial_input.h"
 #include "apps/map_saver.h"
 #include "apps/program_methods.h"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/run_results.h"
 
+#include "plumbline/base/counted.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/io/atomic_file.h"
@@ -10,7 +11,6 @@
 #include "plumbline/report/run_files.h"
 #include "plumbline/report/sample_image.h"
 
-#include "apps/counted.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -4,6 +4,7 @@
 
 #include "lab/experiments/figure_list.h"
 #include "lab/experiments/table_page.h"
+#include "plumbline/base/counted.h"
 #include "plumbline/base/input_file.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/io/atomic_file.h"
@@ -45,7 +46,7 @@ std::string JoinLists(const fs::path& out, const std::vector<GroupPart>& parts, 
 
 std::string OutcomeOf(const GroupPart& part) {
   if (!part.trouble.empty()) return "not run: " + part.trouble;
-  std::string text = fmt::format("{} {}", part.runs, part.runs == 1 ? "run" : "runs");
+  std::string text = Counted(part.runs, "run");
   if (part.failed > 0) text += fmt::format(", {} failed", part.failed);
   return text;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/table.h"
 
+#include "plumbline/base/counted.h"
+
 #include <algorithm>
 #include <numeric>
 #include <set>
@@ -224,13 +226,11 @@ std::string ColumnTitle(const Metric& metric) {
 std::vector<std::string> FailureTexts(const Plan& plan, const ResultTable& table) {
   std::vector<std::string> texts;
   const auto add = [&](const char* what, const char* unit, const Failure& failure) {
-    texts.push_back(fmt::format("{}: {}, {}, {} {}{}: {}",
+    texts.push_back(fmt::format("{}: {}, {}, {}: {}",
                                 what,
                                 plan.sequences[failure.sequence].name,
                                 plan.experiment.variants[failure.variant].name,
-                                failure.runs,
-                                unit,
-                                failure.runs == 1 ? "" : "s",
+                                Counted(failure.runs, unit),
                                 failure.reason));
   };
   for (const Failure& failure : table.failures) add("failed", "run", failure);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/inertial/inertial_check.h"
 
+#include "plumbline/base/counted.h"
 #include "plumbline/base/statistics.h"
 #include "plumbline/base/units.h"
 #include "plumbline/geometry/se3.h"
@@ -217,19 +218,22 @@ InertialCheck CheckInertial(const OrderedSamples& ordered, const InertialCalibra
 std::vector<std::string> InertialFaults(const InertialCheck& check,
                                         const InertialCalibration& calibration) {
   std::vector<std::string> faults;
-  const auto add_count = [&](std::size_t count, const std::string& what) {
-    if (count > 0) faults.push_back(fmt::format("{} {}", count, what));
+  const auto add_count = [&](std::size_t count, const char* noun, const std::string& what) {
+    if (count > 0) faults.push_back(Counted(count, noun) + ' ' + what);
   };
   add_count(check.gaps,
-            fmt::format("gaps above 1.5 intervals, the longest {:.3f} s", check.longest_gap));
-  add_count(check.backward, "samples with a stamp before that of a former one are left out");
-  add_count(check.repeated, "samples with the stamp of the former one are left out");
-  add_count(check.ahead, "samples with a stamp far ahead of those around it are left out");
+            "gap",
+            fmt::format("above 1.5 intervals, the longest {:.3f} s", check.longest_gap));
+  add_count(check.backward, "sample", "left out, with a stamp before that of a former one");
+  add_count(check.repeated, "sample", "left out, with the stamp of the former one");
+  add_count(check.ahead, "sample", "left out, with a stamp far ahead of those around it");
   add_count(check.saturated_rates,
-            fmt::format("samples at the gyroscope's range; the largest rate is {:.4g} rad/s",
+            "sample",
+            fmt::format("at the gyroscope's range; the largest rate is {:.4g} rad/s",
                         check.largest_rate));
   add_count(check.saturated_forces,
-            fmt::format("samples at the accelerometer's range; the largest force is {:.4g} m/s^2",
+            "sample",
+            fmt::format("at the accelerometer's range; the largest force is {:.4g} m/s^2",
                         check.largest_force));
   AddUnitFaults(check, faults);
   const bool strange = check.forces_in_g || check.gravity_taken_off || check.rates_in_degrees;

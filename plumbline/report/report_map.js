@@ -133,7 +133,9 @@ function buildView(figure, bar) {
           "figcaption", {},
           "Drag to turn, Shift or the right button to move, wheel (after a click) or two " +
               "fingers to zoom. ",
-          grid, " The frame under the pointer in a chart is marked here."));
+          grid, " The frame under the pointer in a chart is marked here.",
+          hasLines ? " A clean line is a line of the world, once; the map itself has more lines." :
+                     ""));
   frameCursor.listen((frame) => {
     const place = frame === null ? undefined : placesShown.get(frame);
     view.mark(place ? vectorAt(place[0].positions, place[1]) : null);

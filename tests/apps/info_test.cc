@@ -120,7 +120,7 @@ TEST(Info, TellsOfAnInertialSensor) {
   const std::string out = Info({folder.path().string()});
   EXPECT_THAT(out, HasSubstr("imu           781 samples in 3.995 s, 200 Hz, jitter 0 ms; " + rows));
   EXPECT_THAT(out, HasSubstr("imu file      " + file + ": noise; missing: place\n"));
-  EXPECT_THAT(out, HasSubstr("imu fault     1 gaps above 1.5 intervals, the longest 0.100 s\n"));
+  EXPECT_THAT(out, HasSubstr("imu fault     1 gap above 1.5 intervals, the longest 0.100 s\n"));
   EXPECT_THAT(out, HasSubstr("imu fault     gyroscope_noise_density is 1.7e-05, but "));
   EXPECT_THAT(out, HasSubstr("imu at rest   3 s: "));
   EXPECT_THAT(Info({folder.path().string(), "--imu", "off"}), testing::Not(HasSubstr("imu  ")));

@@ -94,8 +94,8 @@ TEST(CheckInertial, TellsJitterGapsAndStamps) {
   back.insert(back.begin() + 700, back[699]);
   const std::vector<std::string> faults = FaultsOf(back);
   ASSERT_EQ(faults.size(), 2U);
-  EXPECT_EQ(faults[0], "1 samples with a stamp before that of a former one are left out");
-  EXPECT_EQ(faults[1], "1 samples with the stamp of the former one are left out");
+  EXPECT_EQ(faults[0], "1 sample left out, with a stamp before that of a former one");
+  EXPECT_EQ(faults[1], "1 sample left out, with the stamp of the former one");
 }
 
 TEST(CheckInertial, TellsSaturation) {

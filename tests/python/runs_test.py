@@ -102,10 +102,10 @@ def test_what_is_wrong_with_samples_is_told(sequence, tmp_path):
     samples[:, 6] = 9.81
     samples[100:, 0] += 1e8
     samples[150, 0] += 1e18
-    with pytest.warns(UserWarning, match="1 samples with a stamp far ahead"):
+    with pytest.warns(UserWarning, match="1 sample left out, with a stamp far ahead"):
         plumbline.run(tmp_path, imu=samples)
     samples[150, 0] -= 1e18
-    with pytest.warns(UserWarning, match="1 gaps above 1.5 intervals, the longest 0.105 s"):
+    with pytest.warns(UserWarning, match="1 gap above 1.5 intervals, the longest 0.105 s"):
         plumbline.run(tmp_path, imu=samples)
     (tmp_path / "camera.yaml").write_text("size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrate_hz: 3\n")
     with pytest.raises(plumbline.InputError, match="imu: expected the place of the sensor"):

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/datasets/frame_preparation.h"
 
+#include "plumbline/base/counted.h"
 #include "plumbline/base/error.h"
 #include "plumbline/image/resample.h"
 #include "plumbline/io/datasets/image_dataset.h"
@@ -148,9 +149,8 @@ FramePreparation::FramePreparation(const Calibration& calibration,
   }
   const std::size_t cameras = calibration.right ? 2 : 1;
   if (options.masks.size() > cameras) {
-    throw InputError(fmt::format("expected at most {} mask{}, one for each camera, found {}",
-                                 cameras,
-                                 cameras == 1 ? "" : "s",
+    throw InputError(fmt::format("expected at most {}, one for each camera, found {}",
+                                 Counted(cameras, "mask"),
                                  options.masks.size()));
   }
   if (!options.masks.empty()) left_mask_ = ReadMaskOf(calibration.left, options.masks[0]);

@@ -5,14 +5,12 @@
 #include <string>
 #include <string_view>
 
-#include <fmt/core.h>
-
 namespace plumbline {
 
 // Returns a number with its noun: "1 keyframe", "20 keyframes". The plural ends with s.
 template <class Number>
 std::string Counted(Number count, std::string_view noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+  return std::to_string(count) + ' ' + std::string(noun) + (count == 1 ? "" : "s");
 }
 
 }  // namespace plumbline
