@@ -372,14 +372,6 @@ void WriteOptions(const RunSetup& setup, RunFolder& folder) {
   if (const auto failure = folder.Failures()) throw InputError(*failure);
 }
 
-void SayEarlierIsKept(const RunFolder& folder) {
-  Say(
-      fmt::format("{} keeps the results of an earlier run, which has more poses; {} has those of "
-                  "this one",
-                  folder.path().string(),
-                  folder.part().string()));
-}
-
 void SayBefore(const Dataset& dataset,
                const RunFolder& folder,
                const std::vector<std::string>& map_notes,
@@ -512,7 +504,7 @@ int RunCommand(std::span<const std::string> arguments) {
   if (!setup.quiet) {
     Print(result, dataset, written.earlier_kept ? folder.part() : folder.path());
   }
-  if (written.earlier_kept) SayEarlierIsKept(folder);
+  if (written.earlier_kept) Say(NoteOfEarlierKept(folder));
   if (input.viewer) KeepShowing(line, result, *input.viewer, setup.quiet);
   RethrowFailures(processed, written.failure);
   if (written.interrupted) return written.interrupted->exit_code;

@@ -175,6 +175,13 @@ WrittenResults WriteResults(const FinishedRun& run, RunFolder& folder) {
   return ResultWriter(run, folder).WriteAll();
 }
 
+std::string NoteOfEarlierKept(const RunFolder& folder) {
+  return fmt::format(
+      "{} keeps the results of an earlier run, which has more poses; {} has those of this one",
+      folder.path().string(),
+      folder.part().string());
+}
+
 std::optional<std::string> WhyNoPose(const FrameLog& frames, bool no_depth) {
   std::map<std::string, int> counts;
   for (const FrameRecord& frame : frames) {

@@ -43,6 +43,9 @@ struct WrittenResults {
 // data.
 WrittenResults WriteResults(const FinishedRun& run, RunFolder& folder);
 
+// Returns the sentence for WrittenResults::earlier_kept, with the place of the new results.
+std::string NoteOfEarlierKept(const RunFolder& folder);
+
 // Returns the reason why a run found no pose at all, in one line; nullopt if a frame has one.
 std::optional<std::string> WhyNoPose(const FrameLog& frames, bool no_depth);
 

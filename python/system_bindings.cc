@@ -260,32 +260,42 @@ py::list NewEventsOf(RunningSystem& system) {
 }
 
 // The files of `plumbline run --out`, without data known only to programs (exit by a signal).
-std::filesystem::path WriteRun(RunningSystem& system,
-                               RunFolder& folder,
-                               const std::shared_ptr<Dataset>& dataset,
-                               std::size_t frames_chosen,
-                               const std::vector<std::string>& arguments) {
+WrittenResults WriteFiles(RunningSystem& system,
+                          RunFolder& folder,
+                          const Dataset& dataset,
+                          std::size_t frames_chosen,
+                          const std::vector<std::string>& arguments) {
   const py::gil_scoped_release release;
   SlamOptions options = system.options();
   folder.Keep();
   RunDescription description{PLUMBLINE_VERSION,
-                             dataset->info().path.string(),
+                             dataset.info().path.string(),
                              OptionTable(options).Dump(),
                              options.slam.seed,
                              arguments};
   description.frames_chosen = frames_chosen;
   description.preset = system.preset();
-  const WrittenResults written = system.WithFinished("save", [&](const RunResult& finished) {
+  return system.WithFinished("save", [&](const RunResult& finished) {
     return WriteResults({finished,
-                         *dataset,
+                         dataset,
                          system.views(),
                          std::move(description),
                          system.first_pose_seconds(),
                          system.start()},
                         folder);
   });
+}
+
+// Returns where the files are, and a note, or None, if that is not where they were to be.
+py::tuple WriteRun(RunningSystem& system,
+                   RunFolder& folder,
+                   const std::shared_ptr<Dataset>& dataset,
+                   std::size_t frames_chosen,
+                   const std::vector<std::string>& arguments) {
+  const WrittenResults written = WriteFiles(system, folder, *dataset, frames_chosen, arguments);
   if (written.failure) throw InputError(*written.failure);
-  return folder.path();
+  if (!written.earlier_kept) return py::make_tuple(folder.path(), py::none());
+  return py::make_tuple(folder.part(), ToText(NoteOfEarlierKept(folder)));
 }
 
 std::unique_ptr<RunFolder> OpenFolder(const std::filesystem::path& folder,

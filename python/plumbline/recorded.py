@@ -27,7 +27,8 @@ class Run:
     """A finished run.
 
     system: the System, finished. dataset: what it ran on. results: a FrameResult for each frame, in
-    order. out: the folder with the files of the run, or None.
+    order. out: the folder with the files of the run (in that asked for `.part`, where an earlier run
+    with more poses was kept), or None.
     """
 
     def __init__(self, system: System, dataset: Dataset, results: list[FrameResult],
@@ -219,7 +220,10 @@ def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None =
     def write() -> str | None:
         if folder is None:
             return None
-        return os.fspath(_plumbline._write_run(system, folder, dataset, len(frames), []))
+        place, note = _plumbline._write_run(system, folder, dataset, len(frames), [])
+        if note is not None:
+            warnings.warn(note, stacklevel=4)
+        return os.fspath(place)
 
     def finish() -> str | None:
         try:

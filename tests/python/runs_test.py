@@ -39,6 +39,31 @@ def test_a_run_writes_the_bytes_of_the_program(program, sequence, tmp_path):
     plumbline.run(sequence, out=tmp_path / "python", stop=4)
 
 
+def test_what_keeps_an_earlier_run_is_told(sequence, tmp_path):
+    black = tmp_path / "black"
+    black.mkdir()
+    (black / "camera.yaml").write_text("size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrate_hz: 3\n")
+    for i in range(3):
+        (black / f"{i}.pgm").write_bytes(b"P5\n8 6\n255\n" + bytes(48))
+    out = tmp_path / "out"
+    plumbline.run(sequence, out=out)
+    earlier = (out / "trajectory.txt").read_bytes()
+    with pytest.warns(UserWarning, match="out keeps the results of an earlier run") as told:
+        run = plumbline.run(black, out=out)
+    assert [warning.filename for warning in told] == [__file__]
+    assert run.out == str(out / ".part")
+    assert json.loads((out / ".part" / "summary.json").read_text())["data"] == str(black)
+    assert (out / "trajectory.txt").read_bytes() == earlier
+
+    def stop_at(result):
+        if result.index == 4:
+            raise ZeroDivisionError
+
+    with pytest.warns(UserWarning, match="which has more poses"), pytest.raises(ZeroDivisionError):
+        plumbline.run(sequence, out=out, on_frame=stop_at)
+    assert (out / "trajectory.txt").read_bytes() == earlier
+
+
 def samples_of(sequence) -> np.ndarray:
     return np.loadtxt(sequence / "mav0" / "imu0" / "data.csv", delimiter=",", comments="#")
 
