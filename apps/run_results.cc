@@ -29,15 +29,16 @@ namespace plumbline {
 namespace {
 
 // Reasons of frames without a pose (FrameRecord::reason), in words.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kReasonsInWords = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kReasonsInWords = {
     {{"too_few_features", "too few points and lines are seen, or too few with depth"},
      {"too_few_matches", "too little of what was seen before is seen again"},
      {"too_few_inliers", "what is matched contradicts itself"},
      {"pose_not_observable", "what is seen leaves a direction open"},
      {"not_relocalized", "the place is not found in the map"},
      {"map_withdrawn", "the map proved wrong"},
-     {"not_mapped", "mapping was late"},
+     {"not_mapped", "mapping failed"},
      {"dropped", "there was no time"},
+     {"mask_black", "the mask leaves nothing of the image"},
      {"image_unreadable", "the image cannot be read"},
      {"image_size", "the image has another size than the calibration"},
      {"source_lost", "the source gives no images"},
