@@ -186,6 +186,10 @@ std::vector<MappingStep> LocalMapper::AdjustLoopNeighbourhood(Map& map,
   return times;
 }
 
+bool LocalMapper::AdjustsAtEnd(const Map& map, const StopCheck& stop) const {
+  return IsAdjustedAsAWhole(map, imaging_, lines_.weights(), options_, stop);
+}
+
 std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) const {
   constexpr int kRounds = 2;  // in the second round, better poses find more segments of each line
   if (stereo_change_.Running(map)) {

@@ -63,6 +63,9 @@ class LocalMapper {
   // keyframes, then both neighbourhoods are adjusted. Returns the time of each step, in order.
   std::vector<MappingStep> AdjustLoopNeighbourhood(Map& map, KeyFrameId newest, KeyFrameId older);
 
+  // Returns true if Finish adjusts a map as a whole (IsAdjustedAsAWhole).
+  bool AdjustsAtEnd(const Map& map, const StopCheck& stop) const;
+
   // Adjusts a finished map twice (AdjustWholeMap), with its pending stereo correction, and removes
   // outliers (RemoveOutliers). When stopped, the poses are those of the last completed adjustment.
   // Returns the time of each step, in order: "finish_lens", "finish_lines" and "finish_adjust" of

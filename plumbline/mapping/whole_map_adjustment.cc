@@ -223,25 +223,33 @@ MapCorrection Joined(const MapCorrection& first, MapCorrection second) {
 
 }  // namespace
 
+bool IsAdjustedAsAWhole(const Map& map,
+                        const CameraAndPyramid& imaging,
+                        const LineWeights& weights,
+                        const MappingOptions& options,
+                        const StopCheck& stop) {
+  constexpr std::size_t kMinKeyFrames = 3;
+  const int limit = options.final_adjustment_keyframes;
+  const std::size_t count = map.keyframes().size();
+  if (count < kMinKeyFrames || limit == 0 || IsToStop(stop)) return false;
+  if (count <= static_cast<std::size_t>(limit)) return true;
+  MapProblem points = MakeWholeMap(map, imaging, weights, {}, stop);
+  return !TakesTooLong(points.problem, limit, stop);
+}
+
 MapCorrection AdjustWholeMap(const Map& map,
                              const CameraAndPyramid& imaging,
                              const LineSettings& lines,
                              const MappingOptions& options,
                              const StopCheck& stop,
                              AdjustmentProgress* progress) {
-  constexpr std::size_t kMinKeyFrames = 3;
+  // The search for lines is skipped if the points alone show that the map takes too long.
+  if (!IsAdjustedAsAWhole(map, imaging, lines.weights(), options, stop)) return {};
   const int limit = options.final_adjustment_keyframes;
-  const std::size_t count = map.keyframes().size();
-  if (count < kMinKeyFrames || limit == 0 || IsToStop(stop)) return {};
-  const bool large = count > static_cast<std::size_t>(limit);
+  const bool large = map.keyframes().size() > static_cast<std::size_t>(limit);
   const auto without_lines = [&](const Map& of) {
     return MakeWholeMap(of, imaging, lines.weights(), {}, stop);
   };
-  // The search for lines is skipped if the points alone show that the map takes too long.
-  if (large) {
-    MapProblem points = without_lines(map);
-    if (TakesTooLong(points.problem, limit, stop)) return {};
-  }
   MapCorrection to_lens;
   std::optional<Map> moved;
   AdjustmentProgress not_wanted;

@@ -24,6 +24,15 @@ struct AdjustmentProgress {
   std::function<void(const LensCorrection&)> on_lens = {};
 };
 
+// Returns true if AdjustWholeMap adjusts this map, as far as that is known beforehand: that it is
+// neither too small nor too large for mapping.final_adjustment_keyframes. False when stopped. Cost:
+// of maps of more keyframes than that, the problem of its points.
+bool IsAdjustedAsAWhole(const Map& map,
+                        const CameraAndPyramid& imaging,
+                        const LineWeights& weights,
+                        const MappingOptions& options,
+                        const StopCheck& stop = {});
+
 // Adjusts all keyframes and points of a map, when it is finished (LocalMapper::Finish) or beside
 // mapping after a loop or a join (BackgroundAdjustment), together with lines that four keyframes or
 // more show (FindWellSeenLines, with limits of its own instead of those in mapping.line_map). Each

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/background_adjustment.h"
 
+#include <chrono>
 #include <exception>
+#include <thread>
 #include <utility>
 
 #include <sys/resource.h>
@@ -67,9 +69,26 @@ std::optional<BackgroundAdjustment::Result> BackgroundAdjustment::TakeReady() {
   return Take();
 }
 
-void BackgroundAdjustment::Run(Job& job) {
+std::optional<BackgroundAdjustment::Result> BackgroundAdjustment::TakeAtEnd(const StopCheck& stop) {
+  constexpr auto kStep = std::chrono::milliseconds(5);
+  if (job_ == nullptr) return std::nullopt;
+  while (!job_->ready) {
+    if (IsToStop(stop)) {
+      GiveUp();
+      return std::nullopt;
+    }
+    if (job_->thread.joinable()) {
+      std::this_thread::sleep_for(kStep);
+    } else {
+      Run(*job_, stop);
+    }
+  }
+  return Take();
+}
+
+void BackgroundAdjustment::Run(Job& job, const StopCheck& stop) {
   try {
-    job.correction = job.compute(job.map, [&job] { return job.stop.load(); });
+    job.correction = job.compute(job.map, [&] { return job.stop.load() || IsToStop(stop); });
   } catch (...) {
     job.failure = std::current_exception();
   }

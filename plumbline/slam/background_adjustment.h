@@ -51,12 +51,17 @@ class BackgroundAdjustment {
   // Tells the computation to stop, without waiting for it.
   void GiveUp();
   bool Running() const { return job_ != nullptr; }
+  // The map of the running computation. Only while one is running.
+  MapId map() const { return job_->id; }
 
   // Waits for the correction and returns it if `frame` has reached its due frame. Returns it only
   // once.
   std::optional<Result> TakeDue(std::int64_t frame);
   // Returns the correction if it is ready, and only once.
   std::optional<Result> TakeReady();
+  // Waits for the correction, before its due frame too, and returns it. When stopped, one that is
+  // not ready is given up.
+  std::optional<Result> TakeAtEnd(const StopCheck& stop);
 
  private:
   struct Job {
@@ -71,7 +76,7 @@ class BackgroundAdjustment {
     bool was_ready = false;  // at the last call of Reap
     std::jthread thread;     // declared last: ends before the members it uses
   };
-  static void Run(Job& job);
+  static void Run(Job& job, const StopCheck& stop = {});
   void Park(std::unique_ptr<Job> job);
   void Reap();
   void Complete();

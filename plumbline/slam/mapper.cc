@@ -69,15 +69,16 @@ void Mapper::Continue(Atlas atlas, const LocalMapper::State& state) {
 
 MapUpdate Mapper::Process(const MapCommand& command, LoadLevel load) {
   if (mode_ == RunMode::kLive) local_.SetOptions(ReducedOptions(options_, load));
-  // If no other command follows, the end of the run gives the correction up; after a reader, too.
+  // If no other command follows, the end of the run takes the correction or gives it up; after a
+  // reader, too.
   const bool changes_nothing = std::holds_alternative<MapReader>(command.work);
   if (mode_ == RunMode::kLive || !changes_nothing) TakeCorrection(command.frame);
   return command.starts_map ? StartMap(command) : Process(command);
 }
 
 std::vector<MappingStep> Mapper::Finish(const StopCheck& stop) {
-  adjustment_.GiveUp();         // the adjustment below does more
   local_.SetOptions(options_);  // those of the last command may be reduced
+  TakeLastCorrection(stop);
   std::vector<MappingStep> times;
   for (const MapId id : std::exchange(changed_, {})) {
     const std::vector<MappingStep> more = local_.Finish(*atlas_.Find(id), stop);
@@ -228,7 +229,23 @@ MapUpdate Mapper::Process(const MapReader& reader, std::int64_t) {
 
 // Applies the correction that was computed beside mapping, if it takes effect at this frame.
 void Mapper::TakeCorrection(std::int64_t frame) {
-  const auto found = corrects_when_ready_ ? adjustment_.TakeReady() : adjustment_.TakeDue(frame);
+  Take(corrects_when_ready_ ? adjustment_.TakeReady() : adjustment_.TakeDue(frame));
+}
+
+// Takes the correction that is not due yet where the adjustment at the end, which does more, will
+// leave the map as it is: the map is too large, or the run is stopped. Without an adjustment at the
+// end the run ends at once.
+void Mapper::TakeLastCorrection(const StopCheck& stop) {
+  if (!adjustment_.Running()) return;
+  const Map& map = *atlas_.Find(atlas_.Current(adjustment_.map()));
+  if (options_.final_adjustment_keyframes == 0 || local_.AdjustsAtEnd(map, stop)) {
+    adjustment_.GiveUp();
+  } else {
+    Take(adjustment_.TakeAtEnd(stop));
+  }
+}
+
+void Mapper::Take(const std::optional<BackgroundAdjustment::Result>& found) {
   if (found && found->correction.lens_is_right) options_.lens_calibration = false;
   if (!found || found->correction.empty()) return;
   Map& map = *atlas_.Find(atlas_.Current(found->map));

@@ -109,9 +109,10 @@ class Mapper {
   // and each start of one, is atomic even if something throws (Map::Undo).
   MapUpdate Process(const MapCommand& command, LoadLevel load);
 
-  // Adjusts each changed map as a whole (`stop` ends the adjustment early), and moves maps that
-  // were adjusted to a lens back to their world. Afterwards no keyframe may be added to a map that
-  // is tracked against.
+  // Adjusts each changed map as a whole (`stop` ends the adjustment early). A map that is too large
+  // for that gets the correction that is computed in the background, and so does one when stopped,
+  // if the correction is ready. Then maps that were adjusted to a lens are moved back to their
+  // world. Afterwards no keyframe may be added to a map that is tracked against.
   std::vector<MappingStep> Finish(const StopCheck& stop);
 
   // Moves the maps of this mapper's atlas, or of a copy of it, each as a whole, so that the first
@@ -149,6 +150,8 @@ class Mapper {
   void Apply(const MapCorrection& correction, Map& map);
   void FollowJoins();
   void TakeCorrection(std::int64_t frame);
+  void TakeLastCorrection(const StopCheck& stop);
+  void Take(const std::optional<BackgroundAdjustment::Result>& found);
   std::shared_ptr<const MapSnapshot> TakeSnapshotAround(const Map& map, KeyFrameId centre);
 
   RunMode mode_;

@@ -9,6 +9,7 @@
 
 #include "tests/support/true_map.h"
 #include <atomic>
+#include <chrono>
 #include <future>
 #include <latch>
 #include <stdexcept>
@@ -136,6 +137,50 @@ TEST(BackgroundAdjustment, IsTakenWhenItIsReady) {
   while (!result) result = adjustment.TakeReady();
   EXPECT_EQ(Told(result), 3);
   EXPECT_FALSE(adjustment.TakeReady());
+}
+
+TEST(BackgroundAdjustment, IsWaitedForAtTheEndUnlessStopped) {
+  const auto slowly = [](const Map& map, const StopCheck& stop) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return CountKeyFrames(map, stop);
+  };
+  const auto never = [] { return false; };
+  const auto at_once = [] { return true; };
+  for (const Worker worker : kWorkers) {
+    std::latch may_end(1);
+    BackgroundAdjustment adjustment(worker);
+    EXPECT_FALSE(adjustment.TakeAtEnd(never));
+    adjustment.Begin(MapOf(3), 1000, slowly);
+    EXPECT_EQ(Told(adjustment.TakeAtEnd(never)), 3);
+    EXPECT_FALSE(adjustment.Running());
+    adjustment.Begin(MapOf(4), 1000, [&](const Map& map, const StopCheck& stop) {
+      may_end.wait();
+      return CountKeyFrames(map, stop);
+    });
+    EXPECT_FALSE(adjustment.TakeAtEnd(at_once)) << "one that is not ready is not waited for";
+    EXPECT_FALSE(adjustment.Running());
+    may_end.count_down();
+  }
+}
+
+TEST(BackgroundAdjustment, IsTakenWhenItIsReadyThoughTheRunIsStopped) {
+  BackgroundAdjustment adjustment(Worker::kThread);
+  adjustment.Begin(MapOf(3), 1000, CountKeyFrames);
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_EQ(Told(adjustment.TakeAtEnd([] { return true; })), 3);
+}
+
+// A computation in the caller's thread ends when the run is stopped.
+TEST(BackgroundAdjustment, AtTheEndTheCallersThreadStops) {
+  int asked = 0;
+  BackgroundAdjustment adjustment(Worker::kCaller);
+  adjustment.Begin(MapOf(3), 1000, [](const Map&, const StopCheck& stop) {
+    while (!stop()) continue;
+    return MapCorrection();
+  });
+  const auto result = adjustment.TakeAtEnd([&] { return ++asked > 3; });
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(result->correction.empty());
 }
 
 TEST(BackgroundAdjustment, TakingRethrowsWhatTheComputationThrew) {

@@ -6,8 +6,10 @@
 
 #include "tests/support/initial_map_of.h"
 #include "tests/support/synthetic_run.h"
+#include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -149,26 +151,35 @@ std::shared_ptr<const FrameFeatures> ThroughALens(
   return IndexFeatures(camera, std::move(displaced));
 }
 
-// A correction of the whole map is due, but no task came that would have applied it.
-TEST(MapperThread, ALookAtTheMapsDoesNotHastenACorrection) {
-  const SyntheticWorld world = MakeMonocularWorld(400, 0);
+constexpr double kBorderPx = 5;  // of the lens below, where the calibration has none
+
+// A map of a single camera with 17 keyframes through a lens that is learned beside mapping, which
+// begins with the 16th and is not due yet.
+std::unique_ptr<MapperThread> MapperThatLearnsTheLens(const SyntheticWorld& world,
+                                                      const SlamOptions& options) {
   std::vector<int> path_frames;
   for (int k = 0; k < 16; ++k) path_frames.push_back(4 * k);
   InitialMap initial = InitialMapOf(world, path_frames);
   for (auto& view : initial.views) {
-    view.frame.indexed = ThroughALens(world.camera, 5, view.frame.indexed);
+    view.frame.indexed = ThroughALens(world.camera, kBorderPx, view.frame.indexed);
   }
-  MapperThread stage(world.Imaging(), WithLag(1));
-  stage.Submit(60, MakeInitialMapEdit(initial, world.Imaging(), Rigid3{}, KeyFrameId{0}));
+  auto stage = std::make_unique<MapperThread>(world.Imaging(), options);
+  stage->Submit(60, MakeInitialMapEdit(initial, world.Imaging(), Rigid3{}, KeyFrameId{0}));
   Frame frame;
   frame.id = FrameId{64};
   frame.cam_from_world = InMapUnit(PoseOnPath(64));
-  frame.indexed = ThroughALens(world.camera, 5, MonocularFrame(world, 64).indexed);
+  frame.indexed = ThroughALens(world.camera, kBorderPx, MonocularFrame(world, 64).indexed);
   frame.points.resize(frame.features().points.size());
   const Rigid3 from_parent = frame.cam_from_world * Inverse(InMapUnit(PoseOnPath(60)));
-  // From 16 keyframes on the lens is learned beside mapping.
-  stage.Submit(64, {{KeyFrameId{16}, KeyFrameId{15}, frame}, {}, {from_parent, 1}}, false);
+  stage->Submit(64, {{KeyFrameId{16}, KeyFrameId{15}, frame}, {}, {from_parent, 1}}, false);
+  return stage;
+}
 
+// A correction of the whole map is due, but no task came that would have applied it.
+TEST(MapperThread, ALookAtTheMapsDoesNotHastenACorrection) {
+  const SyntheticWorld world = MakeMonocularWorld(400, 0);
+  const std::unique_ptr<MapperThread> learning = MapperThatLearnsTheLens(world, WithLag(1));
+  MapperThread& stage = *learning;
   constexpr std::int64_t kLongAfter = 1000;
   std::optional<double> seen;
   stage.Submit(kLongAfter,
@@ -180,7 +191,27 @@ TEST(MapperThread, ALookAtTheMapsDoesNotHastenACorrection) {
   EXPECT_EQ(stage.maps().at(MapId{0}).correction().lens.border_px(), 0);
   stage.Submit(kLongAfter, UpdateLocalMapRequest{MapId{0}, {}, {}});
   stage.WaitUntilDone();
-  EXPECT_NEAR(stage.maps().at(MapId{0}).correction().lens.border_px(), 5, 2);
+  EXPECT_NEAR(stage.maps().at(MapId{0}).correction().lens.border_px(), kBorderPx, 2);
+}
+
+// Returns the lens that a map has at the end, if the adjustment at the end is for maps of so many
+// keyframes, and all further work is stopped or not.
+double LensAtTheEnd(int most_keyframes, bool stopped) {
+  const SyntheticWorld world = MakeMonocularWorld(400, 0);
+  SlamOptions options = WithLag(1);
+  options.mapping.final_adjustment_keyframes = most_keyframes;
+  const std::unique_ptr<MapperThread> stage = MapperThatLearnsTheLens(world, options);
+  stage->Finish([&] { return stopped; });
+  stage->maps().at(MapId{0}).CheckInvariants();
+  EXPECT_EQ(LogSe3(stage->maps().at(MapId{0}).PoseOf(KeyFrameId{0})).norm(), 0);
+  return stage->maps().at(MapId{0}).correction().lens.border_px();
+}
+
+TEST(MapperThread, WhatIsLearnedIsNotLostWhereTheMapIsTooLargeForTheEnd) {
+  EXPECT_NEAR(LensAtTheEnd(1000, false), kBorderPx, 2);
+  EXPECT_NEAR(LensAtTheEnd(4, false), kBorderPx, 2);
+  EXPECT_EQ(LensAtTheEnd(4, true), 0) << "a stop does not wait";
+  EXPECT_EQ(LensAtTheEnd(0, false), 0) << "the run ends at once";
 }
 
 class MapperWithThread : public ::testing::TestWithParam<RunMode> {};
