@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/local_mapper.h"
 
+#include "plumbline/geometry/measured_depth.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/landmark_creation.h"
 #include "plumbline/mapping/landmark_culling.h"
@@ -121,7 +122,9 @@ std::vector<MappingStep> LocalMapper::Add(Map& map,
   Timed("fuse", times, [&] { Fuse(map, id, refreshed); });
   if (pyramid != nullptr) Timed("align", times, [&] { AlignPoints(map, id, *pyramid); });
   Timed("adjust", times, [&] { Adjust(map, id); });
-  if (options_.stereo_calibration) Timed("calibrate", times, [&] { CalibrateStereo(map, id); });
+  if (options_.stereo_calibration && MeasuresDepth(imaging_.camera)) {
+    Timed("calibrate", times, [&] { CalibrateStereo(map, id); });
+  }
   Timed("clean_up", times, [&] {
     map.Apply(RemoveRedundantKeyFrames(map, id, options_.cleanup));
     map.Apply(RemoveRevisitedKeyFrames(map, id, options_.cleanup));

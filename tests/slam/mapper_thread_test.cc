@@ -7,6 +7,7 @@
 #include "tests/support/initial_map_of.h"
 #include "tests/support/synthetic_run.h"
 #include <memory>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -212,6 +213,16 @@ TEST(MapperThread, WhatIsLearnedIsNotLostWhereTheMapIsTooLargeForTheEnd) {
   EXPECT_NEAR(LensAtTheEnd(4, false), kBorderPx, 2);
   EXPECT_EQ(LensAtTheEnd(4, true), 0) << "a stop does not wait";
   EXPECT_EQ(LensAtTheEnd(0, false), 0) << "the run ends at once";
+}
+
+TEST(MapperThread, OneCameraHasNoTimeOfCalibratingAPair) {
+  const SyntheticWorld world = MakeMonocularWorld(400, 0);
+  const std::unique_ptr<MapperThread> learning = MapperThatLearnsTheLens(world, WithLag(1));
+  learning->WaitUntilDone();
+  std::set<std::string> steps;
+  for (const MappingStep& step : learning->TakeTimes()) steps.insert(step.name);
+  EXPECT_TRUE(steps.contains("adjust"));
+  EXPECT_FALSE(steps.contains("calibrate"));
 }
 
 class MapperWithThread : public ::testing::TestWithParam<RunMode> {};
