@@ -26,15 +26,6 @@
 namespace plumbline::python {
 namespace {
 
-// The inertial sensor of run().
-struct RunInertial {
-  explicit RunInertial(InertialInput given)
-      : input(std::move(given)), feed(input.recording.get()) {}
-
-  InertialInput input;
-  InertialFeed feed;
-};
-
 // imu: "off", "auto", a file, or samples; None: as auto, but silent where the data have none.
 std::unique_ptr<RunInertial> OpenRunInertial(const Dataset& dataset,
                                              const py::object& imu,
@@ -63,11 +54,11 @@ std::unique_ptr<RunInertial> OpenRunInertial(const Dataset& dataset,
 }
 
 void UseRunInertial(const RunInertial& inertial, RunningSystem& system) {
-  if (inertial.input.recording) system.UseInertial(inertial.input.recording->calibration);
+  if (inertial.recording() != nullptr) system.UseInertial(inertial.recording()->calibration);
 }
 
 void FeedUpTo(RunInertial& inertial, RunningSystem& system, std::int64_t stamp_ns) {
-  system.AddInertial(inertial.feed.UpTo(stamp_ns));
+  system.AddInertial(inertial.feed().UpTo(stamp_ns));
 }
 
 py::list ToTexts(const std::vector<std::string>& notes) {
@@ -77,17 +68,21 @@ py::list ToTexts(const std::vector<std::string>& notes) {
 }
 
 py::list NotesAfter(RunInertial& inertial, RunningSystem& system) {
-  if (!inertial.input.recording) return py::list();
-  const InertialRecording& recording = *inertial.input.recording;
-  return ToTexts(system.WithFinished("imu", [&](const RunResult& finished) {
-    return InertialNotes(finished,
-                         recording,
-                         inertial.feed,
-                         recording.complete ? UnusableSamples{} : inertial.feed.unusable());
-  }));
+  return ToTexts(system.WithFinished(
+      "imu", [&](const RunResult& finished) { return inertial.NotesAfter(finished); }));
 }
 
 }  // namespace
+
+const std::vector<std::string>& RunInertial::NotesAfter(const RunResult& finished) {
+  if (after_) return *after_;
+  after_.emplace();
+  if (const InertialRecording* recording = input_.recording.get()) {
+    const UnusableSamples unusable = recording->complete ? UnusableSamples{} : feed_.unusable();
+    after_ = InertialNotes(finished, *recording, feed_, unusable);
+  }
+  return *after_;
+}
 
 std::vector<InertialSample> ReadInertialSamples(py::handle value) {
   constexpr py::ssize_t kColumns = 7;
@@ -124,7 +119,7 @@ void BindInertial(py::module_& module) {
            "imu: as of run(). Raises InputError.")
       .def_property_readonly(
           "notes",
-          [](const RunInertial& inertial) { return ToTexts(inertial.input.notes); },
+          [](const RunInertial& inertial) { return ToTexts(inertial.notes()); },
           "What is wrong with the samples, or why they are left out, a sentence each.")
       .def("use",
            &UseRunInertial,

@@ -264,6 +264,7 @@ WrittenResults WriteFiles(RunningSystem& system,
                           RunFolder& folder,
                           const Dataset& dataset,
                           std::size_t frames_chosen,
+                          RunInertial& inertial,
                           const std::vector<std::string>& arguments) {
   const py::gil_scoped_release release;
   SlamOptions options = system.options();
@@ -276,6 +277,9 @@ WrittenResults WriteFiles(RunningSystem& system,
   description.frames_chosen = frames_chosen;
   description.preset = system.preset();
   return system.WithFinished("save", [&](const RunResult& finished) {
+    description.notes = inertial.notes();
+    const std::vector<std::string>& after = inertial.NotesAfter(finished);
+    description.notes.insert(description.notes.end(), after.begin(), after.end());
     return WriteResults({finished,
                          dataset,
                          system.views(),
@@ -291,8 +295,10 @@ py::tuple WriteRun(RunningSystem& system,
                    RunFolder& folder,
                    const std::shared_ptr<Dataset>& dataset,
                    std::size_t frames_chosen,
+                   RunInertial& inertial,
                    const std::vector<std::string>& arguments) {
-  const WrittenResults written = WriteFiles(system, folder, *dataset, frames_chosen, arguments);
+  const WrittenResults written =
+      WriteFiles(system, folder, *dataset, frames_chosen, inertial, arguments);
   if (written.failure) throw InputError(*written.failure);
   if (!written.earlier_kept) return py::make_tuple(folder.path(), py::none());
   return py::make_tuple(folder.part(), ToText(NoteOfEarlierKept(folder)));

@@ -274,7 +274,7 @@ class _RunFolder:
 
 
 def _write_run(system: System, folder: _RunFolder, dataset: Dataset, frames_chosen: int,
-               arguments: Sequence[str]) -> tuple[PathLike[str], str | None]: ...
+               inertial: _RunInertial, arguments: Sequence[str]) -> tuple[PathLike[str], str | None]: ...
 
 
 class Synth:

@@ -220,7 +220,7 @@ def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None =
     def write() -> str | None:
         if folder is None:
             return None
-        place, note = _plumbline._write_run(system, folder, dataset, len(frames), [])
+        place, note = _plumbline._write_run(system, folder, dataset, len(frames), inertial, [])
         if note is not None:
             warnings.warn(note, stacklevel=4)
         return os.fspath(place)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs: what the program does, frame by frame or in one call."""
 import json
+import shutil
 import signal
 import subprocess
 import sys
@@ -93,6 +94,23 @@ def test_the_gyroscope_of_the_data_gives_the_bytes_of_the_program(program, seque
         assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "program" / name).read_bytes()
     summary = json.loads((tmp_path / "python" / "summary.json").read_text())
     assert summary["inertial"]["turns"] >= 8
+
+
+def test_the_summary_has_the_notes_of_the_sensor_that_the_program_writes(program, sequence, tmp_path):
+    # A gap is known before the run, and after it that two frames are too few for the sensor.
+    data = tmp_path / "data"
+    shutil.copytree(sequence, data)
+    file = data / "mav0" / "imu0" / "data.csv"
+    rows = file.read_text().splitlines()
+    file.write_text("\n".join(rows[:50] + rows[70:]) + "\n")
+    subprocess.run([program, "run", data, "--quiet", "--to", "2", "--out", tmp_path / "program"], check=True)
+    with pytest.warns(UserWarning) as told:
+        plumbline.run(data, out=tmp_path / "python", stop=2)
+    notes = [json.loads((tmp_path / who / "summary.json").read_text())["notes"] for who in ("program", "python")]
+    assert notes[1] == notes[0]
+    warned = [str(warning.message) for warning in told]
+    assert len(warned) == 2 and set(warned) <= set(notes[1])
+    assert "1 gap above" in warned[0] and "too few frames" in warned[1]
 
 
 def test_samples_are_taken_as_an_array_at_once_or_with_the_frames(sequence, dataset, imu_file):
