@@ -23,6 +23,10 @@ TEST(RawPixels, KnowsWhatEncodingsShow) {
     EXPECT_EQ(ContentsOfEncoding(name), ImageContents::kDepth) << name;
   }
   EXPECT_EQ(ContentsOfEncoding("bayer_rggb16"), std::nullopt);
+  EXPECT_EQ(EncodingsOf(ImageContents::kGray),
+            "mono8, 8UC1, rgb8, bgr8, 8UC3, rgba8, bgra8, 8UC4, bayer_rggb8, bayer_bggr8, "
+            "bayer_gbrg8, bayer_grbg8, yuv422, uyvy, yuv422_yuy2, yuyv, nv12 or nv21");
+  EXPECT_EQ(EncodingsOf(ImageContents::kDepth), "mono16, 16UC1 or 32FC1");
   EXPECT_EQ(PixelBytes("rgb8"), 3);
   EXPECT_EQ(PixelBytes("32FC1"), 4);
 }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/datasets/raw_pixels.h"
 #include "plumbline/io/live/open_live_source.h"
 
 #include "tests/io/scratch_folder.h"
@@ -159,8 +160,11 @@ TEST_F(RawStreams, NameWhatIsWrong) {
   EXPECT_THAT(Fault(first + "end\n"), HasSubstr("expected a left image in the header"));
   EXPECT_THAT(Fault(first + "left mono8 4 2\nleft mono8 4 2\n"),
               HasSubstr("standard input:3: expected 'left', 'right', 'depth' or 'imu', each once"));
-  EXPECT_THAT(Fault(first + "left jpeg 4 2\n"), HasSubstr(":2: expected images as mono8"));
-  EXPECT_THAT(Fault(first + "depth mono8 4 2\n"), HasSubstr(":2: expected depth as 16UC1"));
+  EXPECT_THAT(Fault(first + "left jpeg 4 2\n"),
+              HasSubstr(":2: expected images as " + EncodingsOf(ImageContents::kGray) +
+                        ", found 'left jpeg 4 2'"));
+  EXPECT_THAT(Fault(first + "depth mono8 4 2\n"),
+              HasSubstr(":2: expected depth as mono16, 16UC1 or 32FC1, found 'depth mono8 4 2'"));
   EXPECT_THAT(Fault(first + "left mono8 4\n"),
               HasSubstr("expected an encoding, a width and a height"));
   EXPECT_THAT(Fault(first + "left mono8 4 -2\n"), HasSubstr("expected an encoding, a width"));

@@ -11,6 +11,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
@@ -155,9 +156,14 @@ int PixelRows(std::string_view encoding, int height) {
   return found != nullptr && found->planes ? height + (height + 1) / 2 : height;
 }
 
-std::string KnownEncodings() {
-  return "mono8, rgb8, bgr8, rgba8, bgra8, bayer_rggb8 (and its like), yuv422, yuv422_yuy2, nv12, "
-         "16UC1, mono16 or 32FC1";
+std::string EncodingsOf(ImageContents contents) {
+  std::vector<std::string_view> names;
+  for (const Encoding& encoding : kEncodings) {
+    if (encoding.contents == contents) names.push_back(encoding.name);
+  }
+  const std::string_view last = names.back();
+  names.pop_back();
+  return fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 
 Expected<GrayImage, ImageFailure> GrayOfPixels(const std::filesystem::path& name,

@@ -30,8 +30,8 @@ int PixelBytes(std::string_view encoding);
 int PixelRows(std::string_view encoding, int height);
 // Returns true for pixels with one channel of 16 bits, which may also be grey levels.
 bool Is16BitGray(std::string_view encoding);
-// Returns the list of encodings, for messages.
-std::string KnownEncodings();
+// Returns the names of the encodings with these contents, for messages: "mono16, 16UC1 or 32FC1".
+std::string EncodingsOf(ImageContents contents);
 
 // Rows of pixels from top to bottom, `step` bytes apart.
 struct RawPixels {

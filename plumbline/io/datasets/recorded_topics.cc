@@ -209,11 +209,12 @@ std::vector<const RecordedTopic*> Named(const RecordedTopics& topics,
                                    ListOfTopics(AllOf(topics.images))));
     }
     if (topic->contents == TopicContents::kUnknown) {
-      throw InputError(fmt::format("{}: {}: expected images as {}, found {}",
-                                   topics.file->path().string(),
-                                   Printable(name),
-                                   KnownEncodings(),
-                                   InQuotes(topic->encoding)));
+      throw InputError(fmt::format(
+          "{}: {}: expected images as {}, found {}",
+          topics.file->path().string(),
+          Printable(name),
+          EncodingsOf(ImageContents::kGray) + ", depth as " + EncodingsOf(ImageContents::kDepth),
+          InQuotes(topic->encoding)));
     }
     if (std::find(found.begin(), found.end(), &*topic) != found.end()) {
       throw InputError(fmt::format("{}: expected each topic once, found {} twice",

@@ -137,11 +137,9 @@ std::optional<Number> Parse(const std::string& word) {
 Plane ParsePlane(const std::vector<std::string>& words, int line, const std::string& text) {
   const bool depth = words[0] == "depth";
   const auto contents = words.size() > 1 ? ContentsOfEncoding(words[1]) : std::nullopt;
-  if (contents != (depth ? ImageContents::kDepth : ImageContents::kGray)) {
-    FailAtLine(
-        line,
-        depth ? "depth as 16UC1, mono16 or 32FC1" : "images as mono8, rgb8, bgr8, rgba8 or bgra8",
-        text);
+  const ImageContents wanted = depth ? ImageContents::kDepth : ImageContents::kGray;
+  if (contents != wanted) {
+    FailAtLine(line, (depth ? "depth as " : "images as ") + EncodingsOf(wanted), text);
   }
   const auto width = words.size() > 2 ? Parse<std::uint32_t>(words[2]) : std::nullopt;
   const auto height = words.size() > 3 ? Parse<std::uint32_t>(words[3]) : std::nullopt;
