@@ -87,6 +87,20 @@ TEST(ReadBasalt, ThePairFollowsFromThePosesAtTheInertialSensor) {
   EXPECT_FALSE(c.rectified);
 }
 
+// Quaternions with few digits are off by more than rounding.
+TEST(ReadBasalt, QuaternionsAreNormalized) {
+  std::string text = Rig(Lens("pinhole", ""), Lens("pinhole", ""));
+  for (const char* key : {"\"qz\": ", "\"qw\": "}) {
+    const std::string exact = key + std::string("0.7071067811865476");
+    for (std::size_t at = 0; (at = text.find(exact, at)) != std::string::npos;) {
+      text.replace(at, exact.size(), key + std::string("0.71"));
+    }
+  }
+  const Calibration c = ParseCamera(text, "calibration.json");
+  EXPECT_LT((c.right_from_left.translation - Eigen::Vector3d(-0.1, 0, 0)).norm(), 1e-12);
+  EXPECT_NEAR(c.right_from_left.rotation.norm(), 1, 1e-12);
+}
+
 TEST(ReadBasalt, SaysWhatIsWrong) {
   const auto message = [](const std::string& left, const std::string& from, const std::string& to) {
     std::string text = Rig(left, Lens("pinhole", ""));

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/printable.h"
+#include "plumbline/geometry/se3.h"
 #include "plumbline/io/camera_formats.h"
 #include "plumbline/io/cameras/camera_section.h"
 
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -67,8 +67,7 @@ Camera ReadBasaltCamera(const YamlSection& section, int width, int height) {
 Rigid3 ReadBasaltPose(const YamlSection& section) {
   const Eigen::Quaterniond rotation(
       section.Number("qw"), section.Number("qx"), section.Number("qy"), section.Number("qz"));
-  constexpr double kSlack = 1e-3;
-  if (!(std::abs(rotation.norm() - 1) < kSlack)) {
+  if (!IsRotation(rotation)) {
     section.Fail("qw", "expected qx, qy, qz, qw of a rotation, found another length than 1");
   }
   return {rotation.normalized(),
