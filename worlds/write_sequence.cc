@@ -59,31 +59,61 @@ constexpr std::array kNames = {kWorldFile,
                                "imu_ideal.csv",
                                "lines.csv",
                                "surfaces.csv",
+                               "mask0",
+                               "mask1",
+                               "mask_text.png",
                                kDescriptionFile};
 
+// Returns true if an earlier call, which may not have ended, had an option that renders masks:
+// `person` or `text`. Masks of other programs have the same names.
+bool WasRenderedWith(const char* option, const fs::path& folder) {
+  const std::string set = std::string("\n") + option + ": true";
+  for (const char* name : {kWorldFile, kPartFile}) {
+    const auto world = ReadFileIfThere(folder / name);
+    if (world && world->find(set) != std::string::npos) return true;
+  }
+  return false;
+}
+
+// Returns true for a file with the name of a mask that no earlier call wrote.
+bool IsForeignMask(const fs::path& file, const fs::path& folder) {
+  const std::string name = file.filename().string();
+  if (name == "mask_text.png") return !WasRenderedWith("text", folder);
+  return name == "mask0" || name == "mask1";  // rendered ones are folders
+}
+
 // Returns true if a file in one of its folders has a final or temporary name of rendering.
-bool IsRenderedName(const std::string& path) {
+bool IsRenderedName(const std::string& path, bool masks) {
+  static const std::regex mask(R"(mask[01]/([0-9]+|[0-9]+\.[0-9]{9})\.png)");
   static const std::regex rendered(
       R"(mav0/(cam[01]|depth0)/(sensor\.yaml|data\.csv|data/[0-9]+\.png)|)"
       R"(mav0/imu0/(sensor\.yaml|data\.csv|data_ideal\.csv)|)"
       R"(mav0/state_groundtruth_estimate0/data\.csv|)"
       R"((rgb|depth)/[0-9]+\.[0-9]{9}\.png|)"
       R"((.+/)?\.[^/]+\.[0-9]+\.tmp(\.[a-z]+)?)");
-  return std::regex_match(path, rendered);
+  return std::regex_match(path, rendered) || (masks && std::regex_match(path, mask));
 }
 
-// The first file by name that somebody put into the folders of a sequence.
+// The first file by name that somebody put into the folders of a sequence, or in place of a mask.
 std::optional<fs::path> ForeignFile(const fs::path& folder) {
   std::error_code error;
   std::optional<fs::path> foreign;
+  const bool masks = WasRenderedWith("person", folder);
+  const auto add = [&](const fs::path& path) {
+    if (!foreign || path < *foreign) foreign = path;
+  };
   for (const char* name : kNames) {
-    if (!fs::is_directory(folder / name, error)) continue;
+    if (!fs::exists(folder / name, error)) continue;
+    if (!fs::is_directory(folder / name, error)) {
+      if (IsForeignMask(folder / name, folder)) add(folder / name);
+      continue;
+    }
     fs::recursive_directory_iterator entry(folder / name, error);
     for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
       const fs::path& path = entry->path();
       if (fs::is_directory(entry->symlink_status(error))) continue;
-      if (IsRenderedName(path.lexically_relative(folder).generic_string())) continue;
-      if (!foreign || path < *foreign) foreign = path;
+      if (IsRenderedName(path.lexically_relative(folder).generic_string(), masks)) continue;
+      add(path);
     }
     if (error) {
       throw InputError("cannot look into " + (folder / name).string() + ": " + error.message());

@@ -381,6 +381,41 @@ TEST(WriteSequence, AnyLensIsReadAsItWasRendered) {
   }
 }
 
+// Masks of the sequence before would leave out parts of the images of this one.
+TEST(WriteSequence, MasksGoWithTheSequenceTheyWereRenderedFor) {
+  SynthOptions options = Small();
+  options.frames = 1;
+  for (const SequenceFormat format : {SequenceFormat::kEuroc, SequenceFormat::kTum}) {
+    const ScratchFolder folder;
+    options.text = options.person = true;
+    WriteSequence(SyntheticSequence("planar", options, 1), format, folder / "room", 1);
+    EXPECT_TRUE(OpenDataset(folder / "room")->Read(0)->left_mask);
+    options.text = options.person = false;
+    const SyntheticSequence plain("planar", options, 1);
+    WriteSequence(plain, format, folder / "room", 1);
+    WriteSequence(plain, format, folder / "plain", 1);
+    EXPECT_EQ(AllFiles(folder / "room"), AllFiles(folder / "plain"));
+    EXPECT_FALSE(fs::exists(folder / "room/mask0"));
+  }
+}
+
+TEST(WriteSequence, MasksOfAnotherProgramAreNotRemoved) {
+  SynthOptions options = Small();
+  options.frames = 1;
+  const ScratchFolder folder;
+  const SyntheticSequence plain("planar", options, 1);
+  WriteSequence(plain, SequenceFormat::kEuroc, folder / "room", 1);
+  for (const char* name : {"mask0/1500000000000000000.png", "mask1", "mask_text.png"}) {
+    const fs::path mine = folder.Write(std::string("room/") + name, "mine");
+    EXPECT_THAT(
+        MessageOf([&] { WriteSequence(plain, SequenceFormat::kEuroc, folder / "room", 1); }),
+        testing::StartsWith(mine.string() + ": not of a rendered sequence"));
+    EXPECT_EQ(ReadInputFile(mine), "mine");
+    fs::remove_all(folder / "room/mask0");
+    fs::remove(mine);
+  }
+}
+
 TEST(WriteSequence, TextAndAPersonHaveMasks) {
   SynthOptions options = Small();
   options.rate_hz = 1;
