@@ -54,7 +54,7 @@ LAYERS = {
 RENDERER = "worlds"
 LABORATORY = {"line_maps", "consistency", "line_rivals", "rivals", "ceres_reference", "starts", "cutting_testbed", "experiments"}
 # third-party prefix -> the files that may include it (regular expression; those of the product without
-# plumbline/). Headers are left out but for three, so that nobody needs more than Eigen to include the library.
+# plumbline/). Headers are left out but for those named here, so that nobody needs more than Eigen to include the library.
 THIRD_PARTY = {
     "CLI/": None,
     "benchmark/": None,

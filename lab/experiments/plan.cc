@@ -269,7 +269,7 @@ Plan MakePlan(const ComputedExperiment& experiment,
 }
 
 double EstimatedSeconds(const Plan& plan, const Job& job) {
-  // Measured on two cores, see docs/experiments.md.
+  // Measured on two cores.
   constexpr double kStart = 0.5, kFrame = 0.015, kMegapixel = 0.08, kOfUnknown = 300;
   constexpr double kStartsFactor = 6, kStartEvery = 5;
   if (job.computed) return job.computing_s;

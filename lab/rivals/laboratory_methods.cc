@@ -13,7 +13,7 @@
 namespace plumbline {
 namespace {
 
-constexpr std::size_t kBudget = 80;  // of best_80: that of the experiment ablation_odometry
+constexpr std::size_t kBudget = 80;  // number of features that best_80 keeps
 
 std::unique_ptr<Initializer> MakeAnyInitializer(const CameraAndPyramid& imaging,
                                                 const InitializationOptions& options,

@@ -23,9 +23,9 @@ struct PluckerLine {
   Eigen::Vector3d Foot() const { return direction.cross(moment); }
   // Parameter of the point of the line nearest to `point`: Foot() + parameter * direction.
   double ParameterOf(const Eigen::Vector3d& point) const { return direction.dot(point); }
-  // The point `parameter` metres from the foot, along the direction.
+  // The point of the line with this parameter.
   Eigen::Vector3d PointAt(double parameter) const { return Foot() + parameter * direction; }
-  // Distance of a point from the infinite line, metres.
+  // Distance of a point from the infinite line, in the unit of the points.
   double DistanceTo(const Eigen::Vector3d& point) const {
     return (point.cross(direction) - moment).norm();
   }

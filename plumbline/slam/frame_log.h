@@ -28,9 +28,9 @@ class WordTable {
   std::vector<std::string> words_;
 };
 
-// Stores the records of all frames of a run in order, in little memory: 168 bytes a frame, as many
+// Stores the records of all frames of a run in order, in little memory: 176 bytes a frame, 168
 // for the covariance of a pose, and 5 for each time. An hour with 30 frames a second and ten times
-// each takes 42 MB. Times are rounded to single precision, and only the upper triangle of a
+// each takes 43 MB. Times are rounded to single precision, and only the upper triangle of a
 // covariance is stored; everything else is exact.
 //
 // The log is used like a vector, but makes its elements on demand.
