@@ -11,6 +11,7 @@
 #include "plumbline/io/geometry_files.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/map/keyframe_trajectory.h"
+#include "plumbline/map/reprojection.h"
 #include "plumbline/report/run_files.h"
 
 #include "apps/command_line.h"
@@ -162,12 +163,23 @@ PointColors ReadImages(const SavedMap& saved,
   return colors.Means();
 }
 
-// The colours of all points of a map in the order of their ids; none if unknown.
-std::vector<Color> ColorsInOrder(const Map& map, const PointColors& colors) {
+// Writes the points of known distance with their colours, if these are known, and lines. Returns
+// how many points these are, and how many are left out.
+std::string WritePoints(const fs::path& path,
+                        const SavedMap& saved,
+                        const PointColors& colors,
+                        const std::vector<Segment3>& lines) {
+  std::vector<Eigen::Vector3d> points;
   std::vector<Color> in_order;
-  if (colors.empty()) return in_order;
-  for (const auto& [id, point] : map.points()) in_order.push_back(colors.at(id));
-  return in_order;
+  for (const MapPoint* point : PointsOfKnownDistance(saved.camera, saved.map)) {
+    points.push_back(point->position);
+    if (!colors.empty()) in_order.push_back(colors.at(point->id));
+  }
+  WritePly(path, points, lines, in_order);
+  const std::size_t left_out = saved.map.points().size() - points.size();
+  return Counted(points.size(), "point") +
+         (left_out == 0 ? std::string()
+                        : fmt::format(" ({} of unknown distance left out)", left_out));
 }
 
 std::string ExportColmap(const SavedMap& saved, const MapExport& wanted, const StopCheck& stop) {
@@ -180,12 +192,13 @@ std::string ExportColmap(const SavedMap& saved, const MapExport& wanted, const S
   WriteColmapFolder(path, saved.map, camera, model, names, wanted.colmap_files);
   folder.Commit();
   const std::size_t left_out = saved.map.points().size() - model.points.size();
-  return fmt::format(
-      "{}, {}{}, {}",
-      ImagesText(wanted, camera, model.images.size()),
-      Counted(model.points.size(), "point"),
-      left_out == 0 ? std::string() : fmt::format(" ({} of one image left out)", left_out),
-      Counted(saved.map.lines().size(), "line"));
+  return fmt::format("{}, {}{}, {}",
+                     ImagesText(wanted, camera, model.images.size()),
+                     Counted(model.points.size(), "point"),
+                     left_out == 0
+                         ? std::string()
+                         : fmt::format(" ({} of one image or unknown distance left out)", left_out),
+                     Counted(saved.map.lines().size(), "line"));
 }
 
 std::string ExportNerfstudio(const SavedMap& saved,
@@ -196,13 +209,12 @@ std::string ExportNerfstudio(const SavedMap& saved,
   const fs::path& path = folder.temporary_path();
   const ExportCamera camera = CameraOfImages(saved, wanted);
   const PointColors colors = ReadImages(saved, camera, names, wanted, path / "images", stop);
-  WritePly(path / "points.ply", PointPositions(saved.map), {}, ColorsInOrder(saved.map, colors));
+  const std::string points = WritePoints(path / "points.ply", saved, colors, {});
   WriteNerfstudioTransforms(
       path / "transforms.json", saved, camera, names, "points.ply", wanted.others);
   folder.Commit();
-  return fmt::format("{}, {}",
-                     ImagesText(wanted, camera, names.size() + wanted.others.size()),
-                     Counted(saved.map.points().size(), "point"));
+  return fmt::format(
+      "{}, {}", ImagesText(wanted, camera, names.size() + wanted.others.size()), points);
 }
 
 std::string ExportTum(const SavedMap& saved, const MapExport& wanted) {
@@ -220,9 +232,8 @@ std::string ExportLines(const SavedMap& saved, const MapExport& wanted, const St
   if (wanted.format == ExportFormat::kPly) {
     const PointColors colors = ReadImages(
         saved, CameraOfImages(saved, wanted), KeyFrameImageNames(saved.map), wanted, {}, stop);
-    WritePly(wanted.out, PointPositions(saved.map), lines, ColorsInOrder(saved.map, colors));
     return fmt::format(
-        "{}, {}", Counted(saved.map.points().size(), "point"), Counted(lines.size(), "line"));
+        "{}, {}", WritePoints(wanted.out, saved, colors, lines), Counted(lines.size(), "line"));
   }
   if (wanted.format == ExportFormat::kObj) {
     WriteObjLines(wanted.out, lines);

@@ -195,11 +195,11 @@ MapSummary Summarize(const RectifiedCamera& camera, const Map& map) {
     summary.time_ns->first = std::min(summary.time_ns->first, stamp);
     summary.time_ns->second = std::max(summary.time_ns->second, stamp);
   }
-  std::vector<Eigen::Vector3d> places;
+  std::vector<Eigen::Vector3d> places, weak_ends;
   double error_sum = 0;
   std::size_t error_count = 0;
   for (const auto& [id, point] : map.points()) {
-    places.push_back(point.position);
+    if (HasKnownDistance(camera, map, point)) places.push_back(point.position);
     summary.point_observations += point.observations.size();
     if (const auto error = MeanReprojectionError(camera, map, point)) {
       error_sum += *error;
@@ -208,10 +208,15 @@ MapSummary Summarize(const RectifiedCamera& camera, const Map& map) {
   }
   if (error_count > 0) summary.reprojection_px = error_sum / static_cast<double>(error_count);
   for (const auto& [id, line] : map.lines()) {
-    places.push_back(line.Interval().start);
-    places.push_back(line.Interval().end);
+    // Lines that fewer keyframes show can have an end that is a million times too far off.
+    constexpr std::size_t kEstablished = 4;
+    std::vector<Eigen::Vector3d>& ends =
+        line.observations.size() >= kEstablished ? places : weak_ends;
+    ends.push_back(line.Interval().start);
+    ends.push_back(line.Interval().end);
     summary.line_observations += line.observations.size();
   }
+  if (places.empty()) places = weak_ends;
   constexpr double kLeftOut = 0.05;
   summary.bounds = BoxOf(places, 0);
   summary.middle_bounds = BoxOf(places, kLeftOut);

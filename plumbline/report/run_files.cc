@@ -8,6 +8,7 @@
 #include "plumbline/io/geometry_files.h"
 #include "plumbline/io/map_file/map_io.h"
 #include "plumbline/io/trajectory_io.h"
+#include "plumbline/map/reprojection.h"
 #include "plumbline/report/timing.h"
 #include "plumbline/slam/atlas_context.h"
 
@@ -102,7 +103,12 @@ std::vector<Segment3> LinesToSave(const RunResult& result) {
 
 void WriteMapPly(const RunResult& result, const std::filesystem::path& path) {
   std::vector<Eigen::Vector3d> points;
-  if (const auto main = result.MainMap()) points = PointPositions(result.atlas.maps().at(*main));
+  if (const auto main = result.MainMap()) {
+    const Map& map = result.atlas.maps().at(*main);
+    for (const MapPoint* point : PointsOfKnownDistance(result.context.camera, map)) {
+      points.push_back(point->position);
+    }
+  }
   WritePly(path, points, LinesToSave(result));
 }
 

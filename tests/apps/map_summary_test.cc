@@ -54,9 +54,6 @@ TEST(Summarize, CountsAndMeasures) {
     observations += point.observations.size();
     box.extend(point.position);
   }
-  for (const auto& [id, line] : saved.map.lines()) {
-    box.extend(line.Interval().start).extend(line.Interval().end);
-  }
   EXPECT_EQ(summary.point_observations, observations);
   EXPECT_EQ(summary.time_ns, std::pair(std::int64_t{0}, std::int64_t{100'000'000}));
   EXPECT_NEAR(summary.path_length,

@@ -6,6 +6,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/cameras/colmap_camera_models.h"
+#include "plumbline/map/reprojection.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -51,11 +52,13 @@ std::optional<double> ErrorIn(const ExportCamera& camera,
   return (*projected - *measured).norm();
 }
 
-// Returns the point with its views; nullopt if there are too few for COLMAP.
+// Returns the point with its views; nullopt if there are too few for COLMAP, or do not tell how far
+// it is.
 std::optional<ColmapModel::Point> PointOf(const SavedMap& saved,
                                           const ExportCamera& camera,
                                           const MapPoint& point) {
   constexpr std::size_t kMinViews = 2;
+  if (!HasKnownDistance(saved.camera, saved.map, point)) return std::nullopt;
   ColmapModel::Point result;
   result.id = point.id.value + 1;
   result.position = point.position;
