@@ -24,9 +24,9 @@ class RunInertial {
   // Null: none is used.
   const InertialRecording* recording() const { return input_.recording.get(); }
   InertialFeed& feed() { return feed_; }
-  // What is wrong with the samples, or why they are left out, known before the run.
+  // Returns the faults of the samples that are known before the run, or why they are left out.
   const std::vector<std::string>& notes() const { return input_.notes; }
-  // What a finished run found to be wrong with the sensor. Always of the same run.
+  // Returns the faults of the sensor that a finished run, the same in all calls, has found.
   const std::vector<std::string>& NotesAfter(const RunResult& finished);
 
  private:

@@ -80,8 +80,8 @@ Map PointAhead(double distance, const std::optional<Disparity>& disparity = std:
   return map;
 }
 
-// By parallax the deviation of the distance relative to it is sqrt(2) 0.5 px over the shift between
-// the two images, about fx 0.1 / distance: half at `limit`.
+// The deviation of a distance by parallax, relative to the distance, is sqrt(2) 0.5 px over the
+// shift between the two images, about fx 0.1 / distance: half at `limit`.
 TEST(HasKnownDistance, IsWhatParallaxOrDisparitiesTell) {
   const RectifiedCamera camera = TestCamera();
   const double limit = camera.fx * 0.1 / (2 * std::sqrt(2) * 0.5);
