@@ -7,6 +7,7 @@
 #include "plumbline/geometry/measured_depth.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/map/reprojection.h"
+#include "plumbline/mapping/options.h"
 
 #include "apps/map_memory.h"
 #include <algorithm>
@@ -208,10 +209,10 @@ MapSummary Summarize(const RectifiedCamera& camera, const Map& map) {
   }
   if (error_count > 0) summary.reprojection_px = error_sum / static_cast<double>(error_count);
   for (const auto& [id, line] : map.lines()) {
-    // Lines that fewer keyframes show can have an end that is a million times too far off.
-    constexpr std::size_t kEstablished = 4;
+    // Lines that too few keyframes show for the line map can have an end a million times too far.
+    const auto established = static_cast<std::size_t>(LineMapOptions().min_keyframes);
     std::vector<Eigen::Vector3d>& ends =
-        line.observations.size() >= kEstablished ? places : weak_ends;
+        line.observations.size() >= established ? places : weak_ends;
     ends.push_back(line.Interval().start);
     ends.push_back(line.Interval().end);
     summary.line_observations += line.observations.size();

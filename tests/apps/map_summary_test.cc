@@ -68,6 +68,19 @@ TEST(Summarize, CountsAndMeasures) {
   EXPECT_GT(*Summarize(noisy.camera, noisy.map).reprojection_px, 0.5);
 }
 
+// The lines of this map are shown by three keyframes, too few for bounds beside points.
+TEST(Summarize, BoundsWithoutPointsAreOfLines) {
+  WorldMap saved = MakeWorldMap(0);
+  MapEdit edit;
+  for (const auto& [id, point] : saved.map.points()) edit.push_back(edit::RemovePoint{id});
+  saved.map.Apply(edit);
+  Eigen::AlignedBox3d box;
+  for (const auto& [id, line] : saved.map.lines()) {
+    box.extend(line.Interval().start).extend(line.Interval().end);
+  }
+  EXPECT_TRUE(Summarize(saved.camera, saved.map).bounds.isApprox(box));
+}
+
 // The way from the end of one map to the start of the other was not travelled.
 TEST(Summarize, PathsOfMergedMapsAreApart) {
   WorldMap saved = MakeWorldMap(0);
